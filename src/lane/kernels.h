@@ -631,9 +631,9 @@ struct lmb_kernels {
     uint64_t (*live_ahead)(const lmb_live_rays *rays, int32_t targets, const lmb_live_receiver *at);
     void (*live_share)(float all[3], float some[3], const lmb_live_rays *rays, int32_t targets, uint64_t seen);
     /* Find the segments of `asked` that meet each box of a node, returning the mask of boxes that any meets, whose
-     * entries are set; those that end beyond a triangle's plane; and of these
-     * those that cross the triangle. */
-    uint32_t (*live_boxes)(uint64_t out[LMB_BOXES], const lmb_segments *segments, uint64_t asked,
+     * entries are set: segments 0 .. 31, then 32 .. 63; those that end beyond a triangle's plane; and of these those
+     * that cross the triangle. */
+    uint32_t (*live_boxes)(uint32_t out[2][LMB_BOXES], const lmb_segments *segments, uint64_t asked,
                            const lmb_boxes *boxes);
     uint64_t (*live_beyond)(float (*to)[LMB_TILE_PIXELS], uint64_t asked, const lmb_cross_job *job);
     uint64_t (*live_crossed)(float (*to)[LMB_TILE_PIXELS], uint64_t asked, const lmb_cross_job *job);

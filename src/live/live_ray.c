@@ -138,10 +138,12 @@ static void test_leaf(traversal *w, const lmb_boxes *node, int i, uint64_t met)
     }
 }
 
+static inline uint64_t both(uint32_t met[2][LMB_BOXES], int i) { return (uint64_t)met[1][i] << 32 | met[0][i]; }
+
 static void test_node(traversal *w, uint32_t at, uint64_t asked)
 {
     const lmb_boxes *node = &w->bvh->node[at];
-    uint64_t met[LMB_BOXES];
+    uint32_t met[2][LMB_BOXES];
     uint32_t boxes = w->kernels->live_boxes(met, &w->scratch->rays.segments, asked, node), inner = 0;
     for (uint32_t soon = boxes; soon != 0; soon &= soon - 1) {
         const int i = lowest_bit(soon);
@@ -157,13 +159,13 @@ static void test_node(traversal *w, uint32_t at, uint64_t asked)
     }
     for (; boxes != 0 && w->left != 0; boxes &= boxes - 1) {
         const int i = lowest_bit(boxes);
-        test_leaf(w, node, i, met[i]);
+        test_leaf(w, node, i, both(met, i));
         inner |= (uint32_t)(node->count[i] == 0) << i;
     }
     for (; inner != 0 && w->waiting < LMB_LIVE_STACK; inner &= inner - 1) {
         const int i = lowest_bit(inner);
         w->scratch->waiting[w->waiting].node = node->first[i];
-        w->scratch->waiting[w->waiting++].rays = met[i];
+        w->scratch->waiting[w->waiting++].rays = both(met, i);
     }
 }
 

@@ -411,13 +411,12 @@ LANE_INLINE lanei live_met(const lane low[3], const lane high[3], lane_mask some
 }
 
 /* Sets the requested rays that meet each of a node's boxes. Returns the boxes that any of them meets. */
-static uint32_t KERNEL(live_boxes)(uint64_t out[LMB_BOXES], const lmb_segments *s, uint64_t asked,
+static uint32_t KERNEL(live_boxes)(uint32_t out[2][LMB_BOXES], const lmb_segments *s, uint64_t asked,
                                    const lmb_boxes *boxes)
 {
     const lane3 at = lane3_of(s->at);
     uint32_t any = 0;
     for (int i = 0; i < LMB_BOXES; i += LANES) {
-        int32_t part[2][LANES];
         lane low[3], high[3];
         low[0] = lane_load(boxes->low[0] + i);
         high[0] = lane_load(boxes->high[0] + i);
@@ -431,12 +430,11 @@ static uint32_t KERNEL(live_boxes)(uint64_t out[LMB_BOXES], const lmb_segments *
         high[1] = lane_sub(lane_load(boxes->high[1] + i), at.y);
         low[2] = lane_sub(lane_load(boxes->low[2] + i), at.z);
         high[2] = lane_sub(lane_load(boxes->high[2] + i), at.z);
-        lanei_store(part[0], live_met(low, high, some, s, 0, (uint32_t)asked));
-        lanei_store(part[1], live_met(low, high, some, s, 32, (uint32_t)(asked >> 32)));
-        for (int k = 0; k < LANES; ++k) {
-            out[i + k] = (uint64_t)(uint32_t)part[1][k] << 32 | (uint32_t)part[0][k];
-            any |= (uint32_t)(out[i + k] != 0) << (i + k);
-        }
+        const lanei one = live_met(low, high, some, s, 0, (uint32_t)asked),
+                    two = live_met(low, high, some, s, 32, (uint32_t)(asked >> 32));
+        lanei_store((int32_t *)(void *)(out[0] + i), one);
+        lanei_store((int32_t *)(void *)(out[1] + i), two);
+        any |= (~mask_bits(lanei_equal(lanei_or(one, two), lanei_splat(0))) & (~0u >> (32 - LANES))) << i;
     }
     return any;
 }

@@ -488,7 +488,7 @@ static void boxes_by_lanes(void)
         }
         const uint64_t asked = (uint64_t)test_random(&r) << 32 | test_random(&r);
         for (int k = 0; k < COUNT(backends); ++k) {
-            uint64_t out[LMB_BOXES];
+            uint32_t out[2][LMB_BOXES];
             memset(out, 0, sizeof out);
             const uint32_t any = backends[k] != NULL ? backends[k]->live_boxes(out, &rays, asked, &node) : 0;
             for (int i = 0; i < LMB_BOXES && backends[k] != NULL; ++i) {
@@ -504,7 +504,7 @@ static void boxes_by_lanes(void)
                     should |= (uint64_t)(backends[k]->meets_one(&s, &node) >> i & 1u) << b;
                 }
                 should &= asked;
-                wrong += out[i] != should || (any >> i & 1u) != (uint32_t)(should != 0);
+                wrong += ((uint64_t)out[1][i] << 32 | out[0][i]) != should || (any >> i & 1u) != (uint32_t)(should != 0);
                 met += should != 0;
             }
         }
