@@ -55,20 +55,29 @@ static inline int is_known(const live_grid *g, int32_t x, int32_t y)
 /* Last column or row that may have a sample. */
 static int32_t last_of(int32_t size) { return (size - 1) / GRID_STEP * GRID_STEP; }
 
-/* Do all pixels show one triangle with its face normal? */
+/* Do all pixels lie in one plane and have its normal? */
 static int is_flat(const lmb_tile *tile)
 {
+    const lmb_vec3 face = tile_vec(tile->face, 0);
     uint32_t other = 0;
-    float turn[4] = {0, 0, 0, 0}; /* four maxima, so that none waits for the one before */
-    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        other |= tile->id[k] ^ tile->id[0];
-    }
-    for (int c = 0; c < 3 && other == 0; ++c) {
+    float turn[4] = {0, 0, 0, 0}, lift[4] = {0, 0, 0, 0}; /* four maxima, so that none waits for the one before */
+    for (int c = 0; c < 3; ++c) {
         for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
             turn[k % 4] = maxf(turn[k % 4], absf(tile->normal[c][k] - tile->face[c][0]));
         }
     }
-    return other == 0 && maxf(maxf(turn[0], turn[1]), maxf(turn[2], turn[3])) <= 1e-3f;
+    if (!(maxf(maxf(turn[0], turn[1]), maxf(turn[2], turn[3])) <= 1e-3f)) {
+        return 0;
+    }
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        other |= tile->id[k] ^ tile->id[0];
+    }
+    for (int k = 0; k < LMB_TILE_PIXELS && other != 0; ++k) {
+        const lmb_vec3 d = sub3(tile_vec(tile->position, k), tile_vec(tile->position, 0));
+        const float height = dot3(face, d);
+        lift[k % 4] = maxf(lift[k % 4], height * height - LIVE_SAME_LIFT * dot3(d, d));
+    }
+    return maxf(maxf(lift[0], lift[1]), maxf(lift[2], lift[3])) <= 0.0f;
 }
 
 lmb_live_sample lmb_live_grid_surface(const lmb_tile *tile, int k)

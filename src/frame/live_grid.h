@@ -18,7 +18,7 @@ enum {
     GRID_SAMPLES = GRID_SIDE * GRID_SIDE,
     GRID_COARSE = 2 * LMB_TILE, /* px between the first samples */
     GRID_LEVELS = 4, /* steps of 16, 8, 4 and 2 px */
-    GRID_FLAT = 1,   /* all pixels of a tile show one triangle with its face normal, */
+    GRID_FLAT = 1,   /* all pixels of a tile lie in one plane and have its normal, */
     GRID_WHOLE = 2   /* and the tile lies in a cell of 16 px that is not divided */
 };
 

@@ -504,7 +504,8 @@ static void boxes_by_lanes(void)
                     should |= (uint64_t)(backends[k]->meets_one(&s, &node) >> i & 1u) << b;
                 }
                 should &= asked;
-                wrong += ((uint64_t)out[1][i] << 32 | out[0][i]) != should || (any >> i & 1u) != (uint32_t)(should != 0);
+                const uint64_t is = (uint64_t)out[1][i] << 32 | out[0][i];
+                wrong += is != should || (any >> i & 1u) != (uint32_t)(should != 0);
                 met += should != 0;
             }
         }
