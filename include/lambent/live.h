@@ -39,8 +39,8 @@
 #define LMB_LIVE_STACK  256  /* BVH nodes on the stack */
 #define LMB_LIVE_LAST   4    /* triangles that blocked many segments recently */
 
-/* A first point: the surface at one texel of a block of the map, picked by a hash, or of 2 x 2 blocks that show one
- * triangle. 56 bytes. */
+/* A first point: the surface at one texel of a block of the map, picked by a hash, or of 2 x 2 blocks amid 4 x 4
+ * that show one triangle. 56 bytes. */
 typedef struct lmb_live_point {
     lmb_vec3 position, normal; /* m; unit, on the lit side */
     float flux[3];             /* outgoing Lambertian power of the block, W; all 0: no first point */

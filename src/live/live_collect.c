@@ -2,8 +2,8 @@
  *
  * A hash selects one texel of each block as the block's point. So points do not line up along the map, and surfaces
  * that share a block are selected in proportion to their visible area. The point gets all the light through the block.
- * It lies at the texel's middle, where the map was sampled, so never behind an edge. Four blocks that show one triangle
- * give one point. */
+ * It lies at the texel's middle, where the map was sampled, so never behind an edge. Four blocks amid blocks of the
+ * same triangle give one point. */
 #include "live_part.h"
 
 #include <string.h>
@@ -15,7 +15,8 @@
 enum {
     BLOCK = 4,
     LARGE_BLOCK = 8,
-    WIDE = 2,   /* blocks a side that are joined */
+    WIDE = 2,   /* blocks a side that are joined, */
+    NEXT = 4,   /* if so many a side are alike: light is finest at edges */
     FACETS = 8, /* that are kept */
     LINE = 64   /* bytes */
 };
@@ -249,25 +250,27 @@ static lmb_status resolve_blocks(collector *c, int32_t column, int32_t row)
     return lmb_resolve_albedo(c->tile, c->kernels, &view, c->scene, &window, column, row);
 }
 
-/* Do the blocks from pixel k on show one triangle, and are all lit? */
+/* Do the NEXT x NEXT blocks from pixel k on show one triangle, and are all lit? Blocks outside the map show none. */
 static int are_alike(const collector *c, const float *power, int k)
 {
     const uint32_t id = c->tile->id[k];
     int alike = id != 0;
-    for (int i = 0; i < WIDE * WIDE; ++i) {
-        const int at = k + i / WIDE * LMB_TILE + i % WIDE;
-        alike = alike && c->tile->id[at] == id && power[at] > 0.0f;
+    for (int i = 0; i < NEXT * NEXT && alike; ++i) {
+        const int at = k + i / NEXT * LMB_TILE + i % NEXT;
+        alike = c->tile->id[at] == id && power[at] > 0.0f;
     }
     return alike;
 }
 
-/* Stores the points of the blocks from (column, row) on: one, or one for each block. */
-static void set_points(collector *c, int32_t column, int32_t row, int k, const float *power)
+/* Stores the points of WIDE x WIDE blocks from (column, row) on: one, or one for each block. */
+static void set_points(collector *c, int32_t column, int32_t row, int k, const float *power, int joined)
 {
     const int32_t side = c->side;
+    if (column >= side || row >= side) {
+        return;
+    }
     lmb_live_point *out = c->live->point + (size_t)c->into * (size_t)c->live->side * (size_t)c->live->side +
                           (size_t)row * (size_t)side + (size_t)column;
-    const int joined = column + WIDE <= side && row + WIDE <= side && are_alike(c, power, k);
     const int pick = (int)(live_hash((uint32_t)row, (uint32_t)column, c->into) >> 9 & (WIDE * WIDE - 1));
     for (int i = 0; i < WIDE * WIDE; ++i) {
         const int32_t x = i % WIDE, y = i / WIDE, from = joined ? pick : i;
@@ -288,9 +291,12 @@ static lmb_status collect_tile(collector *c, int32_t column, int32_t row)
     for (int32_t y = 0; y < LMB_TILE && row + y < c->side && status == LMB_OK; ++y) {
         set_powers(power + y * LMB_TILE, c, column, row + y);
     }
-    for (int32_t y = 0; y < LMB_TILE && row + y < c->side && status == LMB_OK; y += WIDE) {
-        for (int32_t x = 0; x < LMB_TILE && column + x < c->side; x += WIDE) {
-            set_points(c, column + x, row + y, y * LMB_TILE + x, power);
+    for (int n = 0; n < LMB_TILE_PIXELS / (NEXT * NEXT) && status == LMB_OK; ++n) {
+        const int k = n / (LMB_TILE / NEXT) * NEXT * LMB_TILE + n % (LMB_TILE / NEXT) * NEXT;
+        const int joined = are_alike(c, power, k);
+        for (int i = 0; i < NEXT * NEXT / (WIDE * WIDE); ++i) {
+            const int at = k + i / (NEXT / WIDE) * WIDE * LMB_TILE + i % (NEXT / WIDE) * WIDE;
+            set_points(c, column + at % LMB_TILE, row + at / LMB_TILE, at, power, joined);
         }
     }
     return status;

@@ -241,12 +241,12 @@ static void area_counts_once(void)
     CHECK_MSG(fabs(off / sum) < 0.01, "eight lights are %.4f of one", 1.0 + off / sum);
 }
 
-/* Four blocks that show one triangle give one point, with the light and area of all. */
+/* Four blocks amid sixteen of one triangle give one point, with the light and area of all. */
 static void alike_blocks_are_joined(void)
 {
     const lmb_light light = spot(vec3(0, 2, 0), vec3(0, -1, 0), 34, 35);
     const double radius = 2.0 * tan(35.0 * PI / 180.0), disc = PI * radius * radius;
-    uint32_t wide = 0;
+    uint32_t wide = 0, by_group[MAP / 16][MAP / 16] = {{0}};
     double area = 0.0, flux = 0.0;
     world_begin(0.6f, 0.6f, 0.6f);
     world_triangle(vec3(-9, 0, -9), vec3(0, 0, 9), vec3(9, 0, -9));
@@ -255,12 +255,16 @@ static void alike_blocks_are_joined(void)
         const lmb_live_point *p = &live.sorted[i];
         CHECK(p->wide == 1 || (p->wide == 2 && p->column % 2 == 0 && p->row % 2 == 0));
         wide += p->wide == 2;
+        by_group[p->row / 4][p->column / 4] += p->wide == 2;
         area += (double)p->area;
         flux += (double)p->flux[0];
     }
     /* A cone of 35 degrees with even intensity, less its faded edge. */
     const double sent = 0.6 * (double)light.intensity[0] * 2.0 * PI * (1.0 - cos(35.0 * PI / 180.0));
-    CHECK_MSG(wide * 5 > live.points * 4, "%u of %u points", (unsigned)wide, (unsigned)live.points);
+    for (int i = 0; i < MAP / 16 * (MAP / 16); ++i) {
+        CHECK(by_group[i / (MAP / 16)][i % (MAP / 16)] % 4 == 0);
+    }
+    CHECK_MSG(wide * 5 > live.points * 3, "%u of %u points", (unsigned)wide, (unsigned)live.points);
     CHECK_MSG(area > 0.95 * disc && area < 1.15 * disc, "%g m2 of %g", area, disc);
     CHECK_MSG(flux > 0.94 * sent && flux < 1.0 * sent, "%g W of %g", flux, sent);
 }
