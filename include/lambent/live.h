@@ -40,7 +40,7 @@
 #define LMB_LIVE_LAST   4    /* triangles that blocked many segments recently */
 
 /* A first point: the surface at one texel of a block of the map, picked by a hash, or of 2 x 2 blocks amid 4 x 4
- * that show one triangle. 56 bytes. */
+ * that show one triangle, or of a quarter of a block that is not flat. 60 bytes. */
 typedef struct lmb_live_point {
     lmb_vec3 position, normal; /* m; unit, on the lit side */
     float flux[3];             /* outgoing Lambertian power of the block, W; all 0: no first point */
@@ -50,6 +50,7 @@ typedef struct lmb_live_point {
     uint16_t column, row;      /* the first block */
     uint16_t face;             /* LMB_LIVE_ELEMENT: column + 65,536 row is an element */
     uint8_t light, wide;       /* wide: blocks a side: 1 or 2 */
+    uint16_t shows;            /* the point's ones of the block's 4 x 4 parts, a bit each */
 } lmb_live_point;
 #define LMB_LIVE_ELEMENT 0xffffu
 
@@ -87,7 +88,8 @@ typedef struct lmb_live_chunk {
 typedef struct lmb_live {
     const lmb_scene *scene; /* the scene that it was built from */
     lmb_live_face *face;
-    lmb_live_point *point;  /* face_cap x side x side: a fixed slot for each block; then element_cap of elements */
+    lmb_live_point *point;  /* face_cap x side x side: a fixed slot for each block; then up to 64 of other quarters for
+                               each 8 x 8 blocks; then element_cap of elements */
     const struct lmb_element *element; /* shapes of the element points */
     lmb_live_point *sorted; /* the lit ones, in the order of the cells */
     lmb_live_chunk *chunk;  /* first the chunks of the top level */
@@ -172,8 +174,8 @@ extern "C" {
  * 8 if there would be over 2^18 blocks in all. */
 int32_t lmb_live_side(uint32_t faces, int32_t size);
 
-/* lmb_live_bytes: memory for `faces` faces of side x side blocks and 0 .. 2^24 elements; 0 if that is impossible. 232
- * bytes a block or element.
+/* lmb_live_bytes: memory for `faces` faces of side x side blocks and 0 .. 2^24 elements; 0 if that is impossible. 360
+ * bytes a block, 240 an element.
  * lmb_live_init: lay out a tree in it, aligned as for a uint64_t. Returns LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN or
  * LMB_ERR_CAPACITY. */
 size_t lmb_live_bytes(uint32_t faces, int32_t side, uint32_t elements);

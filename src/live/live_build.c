@@ -65,18 +65,37 @@ static uint32_t key_of(const builder *b, const lmb_live_point *p)
     return (z >> TOP_SHIFT) << (TOP_SHIFT + 3) | side_of(p->normal) << TOP_SHIFT | (z & ((1u << TOP_SHIFT) - 1));
 }
 
-/* Point slots of all faces, used or not; points of elements come after them. */
-static size_t blocks_in(const lmb_live *live)
+/* Slots: those of the blocks of each face, those of the other quarters of each face, those of elements. */
+typedef struct slot_run {
+    size_t first, past;
+    size_t skip; /* if a slot is dark, so are those up to the next multiple of skip + 1 from the first */
+    int of_map;
+} slot_run;
+
+static uint32_t slot_runs(const lmb_live *live) { return 2 * live->faces + 1; }
+
+static slot_run slot_run_of(const lmb_live *live, uint32_t run)
 {
-    return (size_t)live->face_cap * (size_t)live->side * (size_t)live->side;
+    const size_t blocks = (size_t)live->side * (size_t)live->side, tiles = LIVE_QUARTERS * live_tiles(live->side);
+    const uint32_t face = run < live->faces ? run : run - live->faces;
+    slot_run s = {live_slots(live->face_cap, live->side), 0, 0, run < 2 * live->faces};
+    s.past = s.first + live->elements;
+    if (s.of_map) {
+        const int32_t side = live_blocks(&live->face[face]);
+        s.first = run < live->faces ? face * blocks : live->face_cap * blocks + face * tiles;
+        s.past = s.first + (run < live->faces ? (size_t)side * (size_t)side : LIVE_QUARTERS * live_tiles(side));
+        s.skip = run < live->faces ? 0 : LIVE_QUARTERS - 1;
+    }
+    return s;
 }
 
-/* Number of points of face `f`, or of elements if `f` is past the last face; sets the number of points before them. */
-static size_t points_in(size_t *before, const lmb_live *live, uint32_t f)
+/* The next slot with light from slot i on; s->past if there is none. */
+static size_t lit_slot(const lmb_live *live, const slot_run *s, size_t i)
 {
-    const size_t side = f < live->faces ? (size_t)live_blocks(&live->face[f]) : 0;
-    *before = f < live->faces ? f * (size_t)live->side * (size_t)live->side : blocks_in(live);
-    return f < live->faces ? side * side : live->elements;
+    while (i < s->past && !(live_power(live->point[i].flux) > 0.0f)) {
+        i = s->first + ((i - s->first) | s->skip) + 1;
+    }
+    return i;
 }
 
 /* Computes the bounding box of lit points, and the flux of the maps' points. */
@@ -86,18 +105,15 @@ static int lit_box(lmb_vec3 *low, lmb_vec3 *high, lmb_live *live)
     *low = vec3(3e38f, 3e38f, 3e38f);
     *high = vec3(-3e38f, -3e38f, -3e38f);
     live->sent[0] = live->sent[1] = live->sent[2] = 0.0;
-    for (uint32_t f = 0; f <= live->faces; ++f) {
-        size_t before;
-        const size_t count = points_in(&before, live, f);
-        for (size_t i = 0; i < count; ++i) {
-            const lmb_live_point *p = &live->point[before + i];
-            if (live_power(p->flux) > 0.0f) {
-                *low = min3(*low, p->position);
-                *high = max3(*high, p->position);
-                any = 1;
-                for (int h = 0; h < 3 && f < live->faces; ++h) {
-                    live->sent[h] += (double)p->flux[h];
-                }
+    for (uint32_t run = 0; run < slot_runs(live); ++run) {
+        const slot_run s = slot_run_of(live, run);
+        for (size_t i = lit_slot(live, &s, s.first); i < s.past; i = lit_slot(live, &s, i + 1)) {
+            const lmb_live_point *p = &live->point[i];
+            *low = min3(*low, p->position);
+            *high = max3(*high, p->position);
+            any = 1;
+            for (int h = 0; h < 3 && s.of_map; ++h) {
+                live->sent[h] += (double)p->flux[h];
             }
         }
     }
@@ -146,16 +162,13 @@ static void sort_by(pair *to, const pair *from, uint32_t count, int shift)
 static void sort_points(const builder *b)
 {
     lmb_live *live = b->live;
-    pair *one = (pair *)(void *)live->chunk, *other = one + blocks_in(live) + live->element_cap;
+    pair *one = (pair *)(void *)live->chunk, *other = one + live_slots(live->face_cap, live->side) + live->element_cap;
     uint32_t count = 0;
-    for (uint32_t f = 0; f <= live->faces; ++f) {
-        size_t before;
-        const size_t points = points_in(&before, live, f);
-        for (size_t i = 0; i < points; ++i) {
-            if (live_power(live->point[before + i].flux) > 0.0f) {
-                one[count].key = key_of(b, &live->point[before + i]);
-                one[count++].point = (uint32_t)(before + i);
-            }
+    for (uint32_t run = 0; run < slot_runs(live); ++run) {
+        const slot_run s = slot_run_of(live, run);
+        for (size_t i = lit_slot(live, &s, s.first); i < s.past; i = lit_slot(live, &s, i + 1)) {
+            one[count].key = key_of(b, &live->point[i]);
+            one[count++].point = (uint32_t)i;
         }
     }
     for (int shift = 0; shift < 32; shift += 16) {

@@ -3,7 +3,8 @@
  * A hash selects one texel of each block as the block's point. So points do not line up along the map, and surfaces
  * that share a block are selected in proportion to their visible area. The point gets all the light through the block.
  * It lies at the texel's middle, where the map was sampled, so never behind an edge. Four blocks amid blocks of the
- * same triangle give one point. */
+ * same triangle give one point. Blocks that are not flat give one for each quarter: if the hash selected a surface
+ * behind another one, receivers near the one in front would get no light from it. */
 #include "live_part.h"
 
 #include <string.h>
@@ -42,7 +43,8 @@ static uint64_t chunks_of(uint64_t blocks) { return blocks / LMB_LIVE_NODES * 5 
 
 static uint64_t bytes_of(uint32_t faces, int32_t side, uint32_t elements)
 {
-    const uint64_t points = blocks_of(faces, side) + elements, chunks = chunks_of(points) * sizeof(lmb_live_chunk);
+    const uint64_t points = live_slots(faces, side) + (uint64_t)elements,
+                   chunks = chunks_of(blocks_of(faces, side) + elements) * sizeof(lmb_live_chunk);
     return chunks + points * (2 * sizeof(lmb_live_point)) + faces * (uint64_t)sizeof(lmb_live_face) + LINE;
 }
 
@@ -70,11 +72,11 @@ lmb_status lmb_live_init(lmb_live *out, uint32_t faces, int32_t side, uint32_t e
     if (bytes < needed) {
         return LMB_ERR_CAPACITY;
     }
-    const size_t points = (size_t)blocks_of(faces, side) + elements;
+    const size_t points = live_slots(faces, side) + elements;
     memset(out, 0, sizeof *out);
     out->face = (lmb_live_face *)memory;
     out->chunk = (lmb_live_chunk *)(void *)((uint8_t *)(out->face + faces) + to_line(out->face + faces));
-    out->chunk_cap = (uint32_t)chunks_of(points);
+    out->chunk_cap = (uint32_t)chunks_of(blocks_of(faces, side) + elements);
     out->point = (lmb_live_point *)(void *)(out->chunk + out->chunk_cap);
     out->sorted = out->point + points;
     out->element_cap = elements;
@@ -114,6 +116,8 @@ typedef struct collector {
     int32_t map_face, side; /* side: blocks */
     uint32_t into;
     uint16_t x[LMB_TILE_PIXELS], y[LMB_TILE_PIXELS]; /* the texels of the current tile's blocks */
+    uint16_t shows[LMB_TILE_PIXELS];                 /* the parts of each block that the point represents */
+    uint16_t rest[LMB_TILE_PIXELS];                  /* parts in other quarters, which get points of their own */
     lmb_live_facet known[FACETS];
 } collector;
 
@@ -147,11 +151,14 @@ static void set_powers(float out[16], const collector *c, int32_t column, int32_
 #endif
 }
 
-/* The texel that represents a block: the same whatever other lights and faces were skipped. */
+/* A number of the face that is the same whatever other lights and faces were skipped. */
+static uint32_t number_of(const collector *c) { return 8 * c->face->light + (uint32_t)c->map_face; }
+
+/* The texel that represents a block. */
 static void texel_of(int32_t *x, int32_t *y, const collector *c, int32_t column, int32_t row)
 {
     const int32_t each = c->face->each;
-    const uint32_t h = live_hash((uint32_t)column, (uint32_t)row, 8 * c->face->light + (uint32_t)c->map_face);
+    const uint32_t h = live_hash((uint32_t)column, (uint32_t)row, number_of(c));
     *x = mini(column * each + (int32_t)(h >> 8 & (uint32_t)(each - 1)), c->face->size - 1);
     *y = mini(row * each + (int32_t)(h >> 16 & (uint32_t)(each - 1)), c->face->size - 1);
 }
@@ -173,6 +180,9 @@ typedef struct blocks {
     int from;        /* the pixel of the one with the point */
 } blocks;
 
+/* The share of a block that shows the surface of pixel k. */
+static float share_of(const collector *c, int k) { return (float)count_bits_16(c->shows[k]) * (1.0f / LMB_LIVE_NODES); }
+
 /* Flux of joined blocks. */
 static void sum_flux(float sum[3], const collector *c, const blocks *b, const float *power, lmb_vec3 at)
 {
@@ -180,7 +190,7 @@ static void sum_flux(float sum[3], const collector *c, const blocks *b, const fl
         const int k = b->first + i / b->wide * LMB_TILE + i % b->wide;
         float each[3];
         for (int h = 0; h < 3; ++h) {
-            each[h] = texel_flux(c->light->intensity[h], power[k]);
+            each[h] = texel_flux(c->light->intensity[h], power[k] * share_of(c, k));
         }
         light_end_power(each, c->light, at);
         for (int h = 0; h < 3; ++h) {
@@ -211,34 +221,74 @@ static void set_point(lmb_live_point *out, collector *c, int32_t column, int32_t
     sum_flux(out->flux, c, b, power, at);
     out->position = at;
     out->normal = p->normal;
-    out->area = area_of(c, at, p->normal) * (float)(b->wide * b->wide);
+    out->area = area_of(c, at, p->normal) * (float)(b->wide * b->wide) * share_of(c, k);
     out->id = c->tile->id[k];
     out->column = (uint16_t)column;
     out->row = (uint16_t)row;
     out->face = (uint16_t)c->into;
     out->light = (uint8_t)c->face->light;
     out->wide = (uint8_t)b->wide;
+    out->shows = c->shows[k];
+}
+
+/* --- blocks of several surfaces ----------------------------------------------------------------------------------- */
+
+/* Moves pixel k to one of these parts of its block, by a hash. */
+static void move_to_part(collector *c, int32_t column, int32_t row, int k, uint32_t parts)
+{
+    const int32_t each = c->face->each;
+    uint32_t left = live_hash((uint32_t)row, (uint32_t)column, number_of(c) + parts) % count_bits_16(parts);
+    for (; left > 0; --left) {
+        parts &= parts - 1;
+    }
+    const int i = lowest_bit(parts);
+    c->x[k] = (uint16_t)(column * each + (2 * (i % 4) + 1) * each / 8);
+    c->y[k] = (uint16_t)(row * each + (2 * (i / 4) + 1) * each / 8);
+}
+
+static uint32_t quarter_of(int q) { return 0x33u << (q % 2 * 2 + q / 2 * 8); }
+
+/* Divides a block that is not flat into quarters: one is that of the pixel's texel, and *others gets the rest. If the
+ * texel shows nothing, another one is taken. Returns the id of the texel. */
+static uint32_t divide_block(collector *c, int *others, int32_t column, int32_t row, int k)
+{
+    lmb_live_block b;
+    lmb_live_block_of(&b, c->face, column, row);
+    c->shows[k] = 0xffffu;
+    c->rest[k] = 0;
+    if (b.is_one) {
+        return b.id[0];
+    }
+    uint32_t id = live_id(&c->face->id, c->x[k], c->y[k]);
+    if (id == 0) {
+        move_to_part(c, column, row, k, b.shown);
+        id = live_id(&c->face->id, c->x[k], c->y[k]);
+    }
+    const lmb_live_facet *p = lmb_live_facet_of(c->known, FACETS, c->scene, &c->face->view, c->into, id);
+    if (p == NULL || lmb_live_block_is_flat(&b, c->face, &c->map->face[c->map_face].depth, p)) {
+        return id;
+    }
+    const int32_t each = c->face->each;
+    const int own = (c->x[k] - column * each) * 2 / each + (c->y[k] - row * each) * 2 / each * 2;
+    int count = 0;
+    for (int q = 0; q < 4; ++q) {
+        count += q != own && (quarter_of(q) & b.shown) != 0;
+    }
+    if (*others + count <= LIVE_QUARTERS) {
+        *others += count;
+        c->shows[k] = (uint16_t)(quarter_of(own) & b.shown);
+        c->rest[k] = (uint16_t)(b.shown & ~quarter_of(own));
+    }
+    return id;
 }
 
 /* Resolves the albedo of 8 x 8 blocks: their ids form a window of a map with one texel per block. */
-static lmb_status resolve_blocks(collector *c, int32_t column, int32_t row)
+static lmb_status resolve_ids(collector *c, uint32_t id[LMB_TILE_PIXELS], int32_t column, int32_t row)
 {
-    uint32_t id[LMB_TILE_PIXELS];
     const int32_t side = c->side;
     lmb_view view = c->face->view;
     lmb_target window;
     memset(&window, 0, sizeof window);
-    for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
-        const int32_t at = column + k % LMB_TILE, down = row + k / LMB_TILE;
-        int32_t x, y;
-        id[k] = 0;
-        if (at < side && down < side) {
-            texel_of(&x, &y, c, at, down);
-            c->x[k] = (uint16_t)x;
-            c->y[k] = (uint16_t)y;
-            id[k] = live_id(&c->face->id, x, y);
-        }
-    }
     view.frame_width = view.frame_height = (side + LMB_TILE - 1) / LMB_TILE * LMB_TILE;
     window.depth.data = window.id.data = id; /* depths are not read */
     window.depth.width = window.depth.height = window.id.width = window.id.height = LMB_TILE;
@@ -250,14 +300,35 @@ static lmb_status resolve_blocks(collector *c, int32_t column, int32_t row)
     return lmb_resolve_albedo(c->tile, c->kernels, &view, c->scene, &window, column, row);
 }
 
-/* Do the NEXT x NEXT blocks from pixel k on show one triangle, and are all lit? Blocks outside the map show none. */
+/* Resolves one texel of each block. *others: the number of other quarters that get points. */
+static lmb_status resolve_blocks(int *others, collector *c, int32_t column, int32_t row, const float *power)
+{
+    uint32_t id[LMB_TILE_PIXELS];
+    *others = 0;
+    for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const int32_t at = column + k % LMB_TILE, down = row + k / LMB_TILE;
+        int32_t x, y;
+        id[k] = 0;
+        c->shows[k] = c->rest[k] = 0;
+        if (at < c->side && down < c->side && power[k] > 0.0f) {
+            texel_of(&x, &y, c, at, down);
+            c->x[k] = (uint16_t)x;
+            c->y[k] = (uint16_t)y;
+            id[k] = divide_block(c, others, at, down, k);
+        }
+    }
+    return resolve_ids(c, id, column, row);
+}
+
+/* Do the NEXT x NEXT blocks from pixel k on show one triangle, are flat, and are all lit? Blocks outside the map show
+ * none. */
 static int are_alike(const collector *c, const float *power, int k)
 {
     const uint32_t id = c->tile->id[k];
     int alike = id != 0;
     for (int i = 0; i < NEXT * NEXT && alike; ++i) {
         const int at = k + i / NEXT * LMB_TILE + i % NEXT;
-        alike = c->tile->id[at] == id && power[at] > 0.0f;
+        alike = c->tile->id[at] == id && power[at] > 0.0f && c->shows[at] == 0xffffu;
     }
     return alike;
 }
@@ -271,7 +342,7 @@ static void set_points(collector *c, int32_t column, int32_t row, int k, const f
     }
     lmb_live_point *out = c->live->point + (size_t)c->into * (size_t)c->live->side * (size_t)c->live->side +
                           (size_t)row * (size_t)side + (size_t)column;
-    const int pick = (int)(live_hash((uint32_t)row, (uint32_t)column, c->into) >> 9 & (WIDE * WIDE - 1));
+    const int pick = (int)(live_hash((uint32_t)row, (uint32_t)column, number_of(c)) >> 9 & (WIDE * WIDE - 1));
     for (int i = 0; i < WIDE * WIDE; ++i) {
         const int32_t x = i % WIDE, y = i / WIDE, from = joined ? pick : i;
         lmb_live_point *to = out + (size_t)y * (size_t)side + (size_t)x;
@@ -284,13 +355,58 @@ static void set_points(collector *c, int32_t column, int32_t row, int k, const f
     }
 }
 
+/* Stores the points of one other quarter of each block; *count: points stored before and after. */
+static lmb_status set_quarter(int *count, lmb_live_point *out, collector *c, int32_t column, int32_t row, int q,
+                              const float *power)
+{
+    uint32_t id[LMB_TILE_PIXELS];
+    for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
+        c->shows[k] = (uint16_t)(c->rest[k] & quarter_of(q));
+        id[k] = 0;
+        if (c->shows[k] != 0) {
+            move_to_part(c, column + k % LMB_TILE, row + k / LMB_TILE, k, c->shows[k]);
+            id[k] = live_id(&c->face->id, c->x[k], c->y[k]);
+        }
+    }
+    const lmb_status status = resolve_ids(c, id, column, row);
+    for (int32_t k = 0; k < LMB_TILE_PIXELS && status == LMB_OK; ++k) {
+        const blocks b = {k, 1, k};
+        if (c->shows[k] != 0) {
+            set_point(&out[*count], c, column + k % LMB_TILE, row + k / LMB_TILE, &b, power);
+            *count += live_power(out[*count].flux) > 0.0f;
+        }
+    }
+    return status;
+}
+
+/* Stores the points of all other quarters of a tile's blocks. */
+static lmb_status set_quarters(collector *c, int others, int32_t column, int32_t row, const float *power)
+{
+    const lmb_live *live = c->live;
+    const size_t tiles = (size_t)((c->side + LMB_TILE - 1) / LMB_TILE),
+                 tile = (size_t)(row / LMB_TILE) * tiles + (size_t)(column / LMB_TILE);
+    lmb_live_point *to = live->point + (size_t)live->face_cap * (size_t)live->side * (size_t)live->side +
+                         LIVE_QUARTERS * ((size_t)c->into * live_tiles(live->side) + tile);
+    lmb_status status = LMB_OK;
+    int count = 0;
+    for (int q = 0; q < 4 && others > 0 && status == LMB_OK; ++q) {
+        status = set_quarter(&count, to, c, column, row, q, power);
+    }
+    if (count < LIVE_QUARTERS) {
+        memset(&to[count], 0, sizeof *to);
+    }
+    return status;
+}
+
 static lmb_status collect_tile(collector *c, int32_t column, int32_t row)
 {
-    const lmb_status status = resolve_blocks(c, column, row);
     float power[LMB_TILE_PIXELS + LMB_TILE]; /* set_powers writes 16 */
-    for (int32_t y = 0; y < LMB_TILE && row + y < c->side && status == LMB_OK; ++y) {
+    int others;
+    memset(power, 0, sizeof power);
+    for (int32_t y = 0; y < LMB_TILE && row + y < c->side; ++y) {
         set_powers(power + y * LMB_TILE, c, column, row + y);
     }
+    const lmb_status status = resolve_blocks(&others, c, column, row, power);
     for (int n = 0; n < LMB_TILE_PIXELS / (NEXT * NEXT) && status == LMB_OK; ++n) {
         const int k = n / (LMB_TILE / NEXT) * NEXT * LMB_TILE + n % (LMB_TILE / NEXT) * NEXT;
         const int joined = are_alike(c, power, k);
@@ -299,7 +415,7 @@ static lmb_status collect_tile(collector *c, int32_t column, int32_t row)
             set_points(c, column + at % LMB_TILE, row + at / LMB_TILE, at, power, joined);
         }
     }
-    return status;
+    return status == LMB_OK ? set_quarters(c, others, column, row, power) : status;
 }
 
 /* Tile row `row` of a map contains the blocks of tile row row / each if it is the first of these rows. */

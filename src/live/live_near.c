@@ -224,6 +224,7 @@ static void find_parts(live_parts *out, live_look *l, const lmb_live_point *p, u
         out->part[i] = part_of(level, x + i % 4, y + i / 4);
         left |= (uint32_t)(to.id != 0) << i;
     }
+    left &= level == 1 ? p->shows : 0xffffu;
     for (out->shown = 0; left != 0;) {
         const uint32_t id = out->id[lowest_bit(left)];
         const lmb_live_facet *on = facet_of(l, id);
@@ -231,6 +232,7 @@ static void find_parts(live_parts *out, live_look *l, const lmb_live_point *p, u
         for (int i = 0; i < LMB_LIVE_NODES; ++i) {
             same |= (uint32_t)(out->id[i] == id) << i;
         }
+        same &= left;
         left &= ~same;
         if (on != NULL) {
             const lmb_live_surface plane = {&f->view, on->corner, on->normal, {on->side[0], on->side[1]},

@@ -37,8 +37,37 @@ const lmb_live_facet *lmb_live_facet_of(lmb_live_facet *known, uint32_t many, co
  * there is no such point. */
 int lmb_live_place(lmb_vec3 *out, const lmb_live_facet *facet, const lmb_view *view, float sx, float sy);
 
+/* A block's sixteen parts, 4 x 4, each of which one texel represents. */
+typedef struct lmb_live_block {
+    uint32_t id[LMB_LIVE_NODES];
+    int32_t x, y, step; /* texel of the first part, and the distance to the next one */
+    uint32_t shown;     /* parts that show a surface, a bit each */
+    int is_one;         /* 1: all parts have id[0]; the other members may not be set */
+} lmb_live_block;
+
+/* lmb_live_block_of: the ids of a block. lmb_live_block_is_flat: 1 if all parts show surfaces in the plane of one
+ * facet. `depth`: of the face's map, LMB_DEPTH32F. */
+void lmb_live_block_of(lmb_live_block *out, const lmb_live_face *face, int32_t column, int32_t row);
+int lmb_live_block_is_flat(const lmb_live_block *block, const lmb_live_face *face, const lmb_surface *depth,
+                           const lmb_live_facet *facet);
+
 /* Blocks along a face's side. */
 static inline int32_t live_blocks(const lmb_live_face *f) { return (f->size + f->each - 1) / f->each; }
+
+enum { LIVE_QUARTERS = 64 /* slots for the other quarters of 8 x 8 blocks; after the last point, a dark one */ };
+
+/* Tiles of 8 x 8 blocks in a face of `side` x `side` blocks. */
+static inline size_t live_tiles(int32_t side)
+{
+    const size_t tiles = (size_t)((side + LMB_TILE - 1) / LMB_TILE);
+    return tiles * tiles;
+}
+
+/* Slots of the points of `faces` faces. */
+static inline size_t live_slots(uint32_t faces, int32_t side)
+{
+    return faces * ((size_t)side * (size_t)side + LIVE_QUARTERS * live_tiles(side));
+}
 
 /* Number of the element that a point represents. */
 static inline uint32_t live_element_of(const lmb_live_point *p) { return (uint32_t)p->row << 16 | p->column; }

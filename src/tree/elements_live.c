@@ -27,6 +27,7 @@ static void set_point(lmb_live_point *out, const lmb_element *e, const lmb_texel
     out->row = (uint16_t)(i >> 16);
     out->face = LMB_LIVE_ELEMENT;
     out->light = LMB_MAX_LIGHTS;
+    out->shows = 0xffff;
 }
 
 lmb_status lmb_elements_live(lmb_live *inout, const lmb_elements *elements)
@@ -38,7 +39,7 @@ lmb_status lmb_elements_live(lmb_live *inout, const lmb_elements *elements)
     if (elements->count > inout->element_cap) {
         return LMB_ERR_CAPACITY;
     }
-    lmb_live_point *out = inout->point + (size_t)inout->face_cap * (size_t)inout->side * (size_t)inout->side;
+    lmb_live_point *out = inout->point + live_slots(inout->face_cap, inout->side);
     for (uint32_t i = 0; i < elements->count; ++i) {
         set_point(&out[i], &elements->data[i], &elements->tree.texel[tree_along_z(&elements->tree, i)], i);
     }

@@ -11,7 +11,7 @@ void test_live(void);
 
 enum { MAP = 256, FACES = 12 };
 
-static uint64_t live_memory[1 << 21], bvh_memory[1 << 18];
+static uint64_t live_memory[1 << 22], bvh_memory[1 << 18];
 static uint32_t map_memory[6 * MAP * MAP * 2];
 static lmb_live live;
 static lmb_live_scratch scratch;
@@ -267,6 +267,55 @@ static void alike_blocks_are_joined(void)
     CHECK_MSG(wide * 5 > live.points * 3, "%u of %u points", (unsigned)wide, (unsigned)live.points);
     CHECK_MSG(area > 0.95 * disc && area < 1.15 * disc, "%g m2 of %g", area, disc);
     CHECK_MSG(flux > 0.94 * sent && flux < 1.0 * sent, "%g W of %g", flux, sent);
+}
+
+/* Blocks that show a post and the floor far behind it give a point for each quarter. The quarters share the light, and
+ * floor beside the post gets the post's light whichever texel a hash selects. */
+static void quarters_of_blocks(void)
+{
+    const lmb_light light = spot(vec3(0, 0.5f, 20), vec3(0, -0.01f, -1), 4, 5);
+    static uint16_t shows[MAP / 4][MAP / 4];
+    uint32_t divided = 0;
+    double flux = 0.0, want = 0.0, got = 0.0;
+    world_begin(0.6f, 0.6f, 0.6f);
+    world_quad(vec3(0, 0, 0), mul3(X, 9), mul3(Z, 9));
+    world_quad(vec3(0, 0, -9), mul3(X, 9), mul3(Y, 9));
+    for (int i = 0; i < 5; ++i) { /* 2 cm wide; a texel is 1.4 cm there, a block 5.5 */
+        world_quad(vec3(-0.8f + 0.41f * (float)i, 0.5f, 0), mul3(X, 0.01f), mul3(Y, 0.5f));
+    }
+    light_world(&light, 1);
+    memset(shows, 0, sizeof shows);
+    for (uint32_t i = 0; i < live.points; ++i) {
+        const lmb_live_point *p = &live.sorted[i];
+        uint32_t inside = 0;
+        for (int q = 0; q < 4; ++q) {
+            inside |= (p->shows & ~(0x33u << (q % 2 * 2 + q / 2 * 8))) == 0;
+        }
+        CHECK(p->shows == 0xffffu || inside);
+        CHECK((shows[p->row][p->column] & p->shows) == 0);
+        divided += shows[p->row][p->column] != 0;
+        shows[p->row][p->column] |= p->shows;
+        flux += (double)p->flux[0];
+    }
+    const double sent = 0.6 * (double)light.intensity[0] * 2.0 * PI * (1.0 - cos(5.0 * PI / 180.0));
+    CHECK_MSG(divided > 100, "%u further quarters", (unsigned)divided);
+    CHECK_MSG(flux > 0.7 * sent && flux < sent, "%g W of %g", flux, sent);
+    for (int i = 0; i < 5; ++i) {
+        for (int k = 0; k < 10; ++k) {
+            const lmb_vec3 at = vec3(-0.8f + 0.41f * (float)i, 0, 0.1f + 0.01f * (float)k);
+            const lmb_live_receiver r = {at, Y, Y, 1, 1e-6f, vec3(0, 1, 0)};
+            const double area = 0.02 * 1.0;
+            float out[3];
+            receive(out, picked_kernels(), &r, 0);
+            got += (double)out[0];
+            for (int n = 0; n < 1000; ++n) { /* strips of the post */
+                const double y = (n + 0.5) / 1000.0, z = (double)at.z, d2 = y * y + z * z;
+                want += (double)light.intensity[0] / 400.0 * 0.6 / PI * area / 1000.0 * (y / sqrt(d2)) *
+                        (z / sqrt(d2)) / d2;
+            }
+        }
+    }
+    CHECK_MSG(got / want > 0.75 && got / want < 1.1, "floor beside the posts has %.3f of the light", got / want);
 }
 
 /* Parts that earlier points left in the scratch change no byte, and some are used. */
@@ -631,6 +680,7 @@ void test_live(void)
     sums_and_shares();
     area_counts_once();
     alike_blocks_are_joined();
+    quarters_of_blocks();
     kept_parts();
     near_field();
     under_a_sheet_is_dark();
