@@ -237,32 +237,50 @@ uint32_t lmb_pack_node_of(const lmb_pack *p, int kind, uint32_t i)
     return lmb_pack_record(p, kind, i)[word];
 }
 
-int lmb_pack_place_instance(lmb_instance *inout, const lmb_pack *p, uint32_t i, float time_s)
+static int has_record(const lmb_pack *p, int kind, uint32_t i)
 {
+    return p != NULL && p->data != NULL && i < p->count[kind];
+}
+
+lmb_status lmb_pack_place_instance(lmb_instance *inout, const lmb_pack *p, uint32_t i, float time_s)
+{
+    if (inout == NULL || !has_record(p, LMB_PACK_INSTANCES, i)) {
+        return LMB_ERR_ARG;
+    }
     const uint32_t node = lmb_pack_node_of(p, LMB_PACK_INSTANCES, i);
-    return node == LMB_PACK_NONE || way_of(&inout->to_world, p, node, time_s, 0);
+    lmb_mat4 to_world;
+    if (node != LMB_PACK_NONE) {
+        if (!way_of(&to_world, p, node, time_s, 0)) {
+            return LMB_ERR_SCENE;
+        }
+        inout->to_world = to_world;
+    }
+    return LMB_OK;
 }
 
 /* A light points along the node's -Z. If a scale of 0 leaves no length there, the direction comes from the rotations. A
  * point light does not use a direction. */
-int lmb_pack_place_light(lmb_light *inout, const lmb_pack *p, uint32_t i, float time_s)
+lmb_status lmb_pack_place_light(lmb_light *inout, const lmb_pack *p, uint32_t i, float time_s)
 {
+    if (inout == NULL || !has_record(p, LMB_PACK_LIGHTS, i)) {
+        return LMB_ERR_ARG;
+    }
     const uint32_t node = lmb_pack_node_of(p, LMB_PACK_LIGHTS, i);
     lmb_mat4 world, turn;
     if (node == LMB_PACK_NONE) {
-        return 1;
+        return LMB_OK;
     }
     if (!way_of(&world, p, node, time_s, 0)) {
-        return 0;
+        return LMB_ERR_SCENE;
     }
     lmb_vec3 way;
     if (direction_of(&way, &world, 2) || (way_of(&turn, p, node, time_s, 1) && direction_of(&way, &turn, 2))) {
         inout->direction = sub3(vec3(0.0f, 0.0f, 0.0f), way);
     } else if (inout->kind != LMB_LIGHT_POINT) {
-        return 0;
+        return LMB_ERR_SCENE;
     }
     inout->position = column(&world, 3);
-    return 1;
+    return LMB_OK;
 }
 
 /* Returns 0 if the matrix has no such axes. */

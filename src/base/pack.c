@@ -424,7 +424,7 @@ lmb_status lmb_pack_pose(lmb_scene *inout, const lmb_pack *pack, float time_s)
     int moved = 0;
     for (uint32_t i = 0; i < inout->instance_count; ++i) {
         lmb_instance to = instances[i];
-        if (!lmb_pack_place_instance(&to, pack, i, time_s)) {
+        if (lmb_pack_place_instance(&to, pack, i, time_s) != LMB_OK) {
             return LMB_ERR_SCENE;
         }
         if (memcmp(&to, &instances[i], sizeof to) != 0) {
@@ -435,7 +435,7 @@ lmb_status lmb_pack_pose(lmb_scene *inout, const lmb_pack *pack, float time_s)
     }
     for (uint32_t i = 0; i < inout->light_count; ++i) {
         lmb_light to = lights[i];
-        if (!lmb_pack_place_light(&to, pack, i, time_s)) {
+        if (lmb_pack_place_light(&to, pack, i, time_s) != LMB_OK) {
             return LMB_ERR_SCENE;
         }
         if (memcmp(&to, &lights[i], sizeof to) != 0) {

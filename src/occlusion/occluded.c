@@ -374,7 +374,7 @@ static void test_own(traversal *w)
         const int k = lowest_bit_64(bits);
         const lmb_vec3 d = sub3(tile_vec(w->tile->position, k), w->at);
         w->left = bits & (~bits + 1);
-        seen &= ~(w->own[k] != 0 && blocks_one(w, w->own[k] - 1, d) ? w->left : 0);
+        seen &= ~(w->own[k] != 0 && w->own[k] <= w->b->triangle_count && blocks_one(w, w->own[k] - 1, d) ? w->left : 0);
     }
     w->left = seen;
 }
@@ -436,8 +436,8 @@ uint64_t lmb_occluded_tile(const lmb_kernels *kernels, lmb_traversal *kept, cons
     return lmb_occluded_again(kernels, kept, NULL, bvh, tile, pixels, at, noise);
 }
 
-uint64_t lmb_occluded_again(const lmb_kernels *kernels, lmb_traversal *kept, uint32_t *own, const lmb_bvh *bvh,
-                            const lmb_tile *tile, uint64_t pixels, lmb_vec3 at, float noise)
+uint64_t lmb_occluded_again(const lmb_kernels *kernels, lmb_traversal *kept, uint32_t own[LMB_TILE_PIXELS],
+                            const lmb_bvh *bvh, const lmb_tile *tile, uint64_t pixels, lmb_vec3 at, float noise)
 {
     traversal w = {bvh, kernels, tile, at, noise, kept, pixels, own};
     if (bvh == NULL || kernels == NULL || tile == NULL || kept == NULL || pixels == 0 || bvh->node_count == 0) {

@@ -29,11 +29,6 @@
 int lmb_occluded_from(const lmb_bvh *bvh, const lmb_kernels *kernels, const lmb_tile *tile, uint64_t pixels,
                       const lmb_vec3 *at, int count, float noise, uint32_t triangle);
 
-/* As lmb_occluded_tile, and first tests own[k] for pixel k: the triangle that blocked it last, as in lmb_traversal. For
- * pixels that lie far apart, in calls whose points lie close together. own: 64 numbers, updated; begin with 0. */
-uint64_t lmb_occluded_again(const lmb_kernels *kernels, lmb_traversal *traversal, uint32_t *own, const lmb_bvh *bvh,
-                            const lmb_tile *tile, uint64_t pixels, lmb_vec3 at, float noise);
-
 /* A single pixel meets this many boxes only if most of them overlap, as for long slivers or for a mesh far from the
  * origin. The pixels after it are then traced together, so that each triangle is tested once for all of them. */
 #define LMB_MANY_BOXES 256u

@@ -89,7 +89,13 @@ static void sample(float out[4], const lmb_texture *t, int32_t codes, float u, f
 {
     int32_t n = 0;
     float part = 0.0f;
+    if (out == NULL) {
+        return;
+    }
     out[0] = out[1] = out[2] = out[3] = 0.0f;
+    if (t == NULL || t->texels == NULL) {
+        return;
+    }
     if (t->filter == LMB_TRILINEAR && t->levels > 1 && lod > 0.0f) {
         lod = minf(lod, (float)(t->levels - 1));
         n = (int32_t)lod;

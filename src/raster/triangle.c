@@ -30,8 +30,8 @@ const lmb_material *lmb_material_of(const lmb_scene *scene, uint32_t id)
 
 int lmb_triangle_fetch(lmb_triangle *out, const lmb_scene *scene, uint32_t id)
 {
-    const lmb_instance *instance = lmb_instance_of(scene, id);
-    return instance != NULL && triangle_of(out, scene, instance, id);
+    const lmb_instance *instance = scene != NULL ? lmb_instance_of(scene, id) : NULL;
+    return instance != NULL && out != NULL && triangle_of(out, scene, instance, id);
 }
 
 #if LMB_TREES || LMB_TRANSFER || LMB_MIXED
@@ -39,7 +39,7 @@ int lmb_triangle_shape(lmb_vec3 *normal, float *area, const lmb_triangle *t)
 {
     lmb_vec3 n;
     float longest;
-    if (!triangle_cross(&n, &longest, t)) {
+    if (normal == NULL || area == NULL || t == NULL || !triangle_cross(&n, &longest, t)) {
         return 0;
     }
     *normal = normalize3(n);

@@ -6,7 +6,6 @@
 #include "../base/vec.h"
 #include "../raster/triangle.h"
 #include "halvings.h"
-#include "sections.h"
 
 #if LMB_TRANSFER
 
@@ -268,14 +267,15 @@ static int are_zeros(const uint32_t *word, int count)
 /* Sets the positions of sections. Returns 0 if the word count does not match. */
 static int lay_out(lmb_transfer *out, const uint32_t *word, uint64_t words)
 {
+    static const uint8_t words_each[LMB_TRANSFER_SECTIONS] = LMB_TRANSFER_WORDS_EACH;
     uint64_t at = LMB_TRANSFER_HEADER_WORDS;
     for (int s = 0; s < LMB_TRANSFER_SECTIONS; ++s) {
         out->count[s] = word[COUNTS + s];
         out->section[s] = word + at;
-        if (out->count[s] >= MAX_COUNT || (uint64_t)out->count[s] * transfer_words_each[s] > words - at) {
+        if (out->count[s] >= MAX_COUNT || (uint64_t)out->count[s] * words_each[s] > words - at) {
             return 0;
         }
-        at += (uint64_t)out->count[s] * transfer_words_each[s];
+        at += (uint64_t)out->count[s] * words_each[s];
     }
     return at == words;
 }
