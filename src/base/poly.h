@@ -15,6 +15,7 @@
 
 #define LMB_PI 3.14159274f          /* the float nearest to pi, and */
 #define LMB_PI_REST -8.74227766e-8f /* the rest of pi */
+#define LMB_INVERSE_PI 0.31830989f
 
 static inline uint32_t float_bits(float v)
 {
