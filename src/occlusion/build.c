@@ -20,10 +20,10 @@
 #if LMB_TREES
 
 enum {
-    BINS = 16,  /* along each axis */
-    LESS = 16,  /* up to this many items use half the bins: most splits are small */
-    FEW = 5,    /* up to this many items try all splits */
-    LEAF = 4    /* maximum triangles of a leaf while nodes are available */
+    AXIS_BINS = 16,       /* along each axis */
+    LESS = 16,            /* up to this many items use half the bins: most splits are small */
+    MAX_SORTED_ITEMS = 5, /* up to this many items try all splits */
+    LEAF = 4              /* maximum triangles of a leaf while nodes are available */
 };
 
 size_t lmb_bvh_bytes(uint32_t n)
@@ -81,7 +81,7 @@ static inline float half_area(const span *s)
     return x * y + y * z + z * x;
 }
 
-static span span_of(const span *item, uint32_t count)
+static span span_of_items(const span *item, uint32_t count)
 {
     span s = span_none();
     for (uint32_t i = 0; i < count; ++i) {
@@ -109,7 +109,7 @@ static void set_item(span *out, const lmb_triangle *t)
 static uint32_t item_id(const span *s) { return (uint32_t)s->low[3] | (uint32_t)s->high[3] << 16; }
 
 /* As lmb_triangle_fetch. *instance caches the instance of the last triangle, which usually has this one too. */
-static int fetch(lmb_triangle *out, const lmb_instance **instance, const lmb_scene *scene, uint32_t id)
+static int fetch_drawable(lmb_triangle *out, const lmb_instance **instance, const lmb_scene *scene, uint32_t id)
 {
     if (*instance == NULL || id - (*instance)->first_id >= scene->meshes[(*instance)->mesh].triangle_count) {
         *instance = lmb_instance_of(scene, id);
@@ -118,14 +118,14 @@ static int fetch(lmb_triangle *out, const lmb_instance **instance, const lmb_sce
 }
 
 /* Limits on texels read to find triangles that are entirely transparent: for one triangle, and in total. */
-#define TEXELS     65536u
+#define MAX_HOLE_TEXELS 65536u
 #define ALL_TEXELS (1u << 26)
 
 /* 1 if the triangle is entirely transparent and blocks nothing. */
-NOINLINE int is_hole(const lmb_triangle *t, const lmb_scene *scene, uint32_t *texels)
+NOINLINE int is_triangle_hole(const lmb_triangle *t, const lmb_scene *scene, uint32_t *texels)
 {
     lmb_resolve_alpha alpha;
-    uint32_t own = *texels < TEXELS ? *texels : TEXELS;
+    uint32_t own = *texels < MAX_HOLE_TEXELS ? *texels : MAX_HOLE_TEXELS;
     const uint32_t before = own;
     lmb_resolve_alpha_of(&alpha, t);
     const int hole = lmb_resolve_is_hole(&alpha, scene, &own);
@@ -144,8 +144,8 @@ static uint32_t take_items(span *out, const lmb_scene *scene)
         lmb_triangle t;
         lmb_vec3 normal;
         float longest;
-        if (fetch(&t, &instance, scene, id) && triangle_cross(&normal, &longest, &t) &&
-            !((t.material->flags & LMB_ALPHA_MASK) && is_hole(&t, scene, &texels))) {
+        if (fetch_drawable(&t, &instance, scene, id) && triangle_cross(&normal, &longest, &t) &&
+            !((t.material->flags & LMB_ALPHA_MASK) && is_triangle_hole(&t, scene, &texels))) {
             set_item(&out[count++], &t);
         }
     }
@@ -167,7 +167,7 @@ static void place_triangles(lmb_bvh_triangle *t, uint32_t count, const lmb_scene
         lmb_triangle from;
         lmb_vec3 normal;
         float longest;
-        if (fetch(&from, &instance, scene, own) && triangle_cross(&normal, &longest, &from)) {
+        if (fetch_drawable(&from, &instance, scene, own) && triangle_cross(&normal, &longest, &from)) {
             memcpy(t[i].corner, from.corner, sizeof from.corner);
             t[i].normal = normalize3(normal);
             t[i].id = own | (from.material->flags & LMB_ALPHA_MASK ? LMB_BVH_MASKED : 0);
@@ -185,7 +185,7 @@ typedef struct cut {
     float cost;
     span left, right;
     uint32_t below;           /* items on the left */
-    uint8_t order[FEW];       /* few items: the left ones, then the others */
+    uint8_t order[MAX_SORTED_ITEMS]; /* few items: the left ones, then the others */
     int axis, bin;            /* many: the left ones are in bins below this */
     float low[4], per_bin[4]; /* bin = (twice the centre - low) x per_bin, 1/m; per_bin 0: all in one place */
 } cut;
@@ -224,8 +224,8 @@ static inline void bins_of(int32_t out[4], const cut *c, const span *item)
 
 /* Contents of the bins of an axis. */
 typedef struct bins {
-    span box[BINS];
-    uint32_t count[BINS];
+    span box[AXIS_BINS];
+    uint32_t count[AXIS_BINS];
 } bins;
 
 static void fill_bins(bins out[3], int many, const cut *c, const span *item, uint32_t count)
@@ -252,7 +252,7 @@ static void fill_bins(bins out[3], int many, const cut *c, const span *item, uin
 /* The cheapest split between the bins of an axis. Returns 1 if it is cheaper than *best was. */
 static int sweep(cut *best, const bins *b, int many, uint32_t count)
 {
-    float right[BINS];
+    float right[AXIS_BINS];
     span s = span_none();
     int found = 0;
     uint32_t below = 0;
@@ -281,7 +281,7 @@ static int sweep(cut *best, const bins *b, int many, uint32_t count)
 static void cut_bins(cut *best, const span *item, uint32_t count)
 {
     bins b[3];
-    const int many = count > LESS ? BINS : BINS / 2;
+    const int many = count > LESS ? AXIS_BINS : AXIS_BINS / 2;
     set_bins(best, many, item, count);
     fill_bins(b, many, best, item, count);
     for (int axis = 0; axis < 3; ++axis) {
@@ -304,8 +304,8 @@ static float middle_sum(const span *s)
 /* Few items: the best of all splits, with the lower part on the left as with bins. A set of items is a bit mask. */
 static void cut_few(cut *best, const span *item, uint32_t count)
 {
-    span box[1 << FEW];
-    float area[1 << FEW], many[1 << FEW];
+    span box[1 << MAX_SORTED_ITEMS];
+    float area[1 << MAX_SORTED_ITEMS], many[1 << MAX_SORTED_ITEMS];
     const uint32_t all = (1u << count) - 1;
     uint32_t left = 0;
     box[0] = span_none();
@@ -337,7 +337,7 @@ static void cut_few(cut *best, const span *item, uint32_t count)
 
 static void part_few(cut *c, span *item, uint32_t count)
 {
-    span in[FEW];
+    span in[MAX_SORTED_ITEMS];
     memcpy(in, item, count * sizeof *item);
     c->left = c->right = span_none();
     for (uint32_t i = 0; i < count; ++i) {
@@ -387,7 +387,7 @@ static int cut_run(span *items, run *r, run *more, int *halves)
     const uint32_t first = r->first, count = r->count;
     cut best = {0};
     best.cost = 3e38f;
-    if (count <= FEW) {
+    if (count <= MAX_SORTED_ITEMS) {
         cut_few(&best, item, count);
     } else if (!*halves) {
         cut_bins(&best, item, count);
@@ -397,15 +397,15 @@ static int cut_run(span *items, run *r, run *more, int *halves)
         r->whole = 1;
         return 0;
     }
-    if (count <= FEW) {
+    if (count <= MAX_SORTED_ITEMS) {
         part_few(&best, item, count);
     } else if (best.cost < 3e38f) {
         part_bins(&best, item, count);
     } else {
         *halves = 1;
         best.below = count / 2;
-        best.left = span_of(item, best.below);
-        best.right = span_of(item + best.below, count - best.below);
+        best.left = span_of_items(item, best.below);
+        best.right = span_of_items(item + best.below, count - best.below);
     }
     set_run(r, &best.left, first, best.below);
     set_run(more, &best.right, first + best.below, count - best.below);
@@ -424,7 +424,7 @@ static int next_run(const run *r, int count, int halves)
     return best;
 }
 
-static void set_box(lmb_boxes *node, int i, const run *r)
+static void set_run_box(lmb_boxes *node, int i, const run *r)
 {
     const float *low = r->box.low, *high = r->box.high;
     const float size = maxf(high[0] - low[0], maxf(high[1] - low[1], high[2] - low[2])),
@@ -454,7 +454,7 @@ static void fill_node(lmb_boxes *node, span *items, uint32_t first, uint32_t cou
     const int too_many = count > (uint64_t)LEAF << 4 * (LMB_TRAVERSAL_LEVELS - 1 - depth);
     run r[LMB_BOXES];
     int runs = 1, next, halves = too_many;
-    const span box = span_of(items + first, count);
+    const span box = span_of_items(items + first, count);
     set_run(&r[0], &box, first, count);
     while (runs < LMB_BOXES && (next = next_run(r, runs, halves)) >= 0) {
         int by_halves = halves;
@@ -464,7 +464,7 @@ static void fill_node(lmb_boxes *node, span *items, uint32_t first, uint32_t cou
     }
     for (int i = 0; i < LMB_BOXES; ++i) {
         if (i < runs) {
-            set_box(node, i, &r[i]);
+            set_run_box(node, i, &r[i]);
         } else {
             set_no_box(node, i);
         }
@@ -494,7 +494,7 @@ static branch branch_at(lmb_bvh *b, span *items, uint32_t at, int deep)
 }
 
 /* Depth first, the last child before the others. */
-static void grow(lmb_bvh *b, span *items)
+static void grow_nodes(lmb_bvh *b, span *items)
 {
     branch way[LMB_TRAVERSAL_LEVELS];
     int depth = 0;
@@ -528,7 +528,7 @@ lmb_status lmb_bvh_build(lmb_bvh *inout, const lmb_scene *scene)
     if (inout->triangle_count > 0) {
         fill_node(inout->node, items, 0, inout->triangle_count, 0);
         inout->node_count = 1;
-        grow(inout, items);
+        grow_nodes(inout, items);
         place_triangles(inout->triangle, inout->triangle_count, scene);
     }
     lmb_hull_find(&inout->hull, scene);

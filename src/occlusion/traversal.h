@@ -35,6 +35,17 @@ int lmb_occluded_from(const lmb_bvh *bvh, const lmb_kernels *kernels, const lmb_
 
 #define LMB_TRAVERSAL_MOST 0x10000000 /* maximum of `left`, so that no sum overflows */
 
+/* How pixels are traced: together through a pyramid of all segments (occluded.c) or a sweep of all rays (sun.c), or one
+ * by one. */
+enum {
+    MAX_SINGLE_PIXELS = 7,   /* up to this many are traced one by one: in foliage they lie far apart */
+    MIN_BLOCKED_PIXELS = 16, /* a triangle that blocks this many is tested first for the next segments or rays */
+    MAX_MISSES = 2           /* after this many triangles that block only one pixel, none is retried for the others */
+};
+#define MAX_BOXES_A_PIXEL 8u     /* at which a pyramid or sweep is abandoned: single pixels meet fewer */
+#define SINGLE_POINTS     15u    /* number of following points or directions traced pixel by pixel after that */
+#define MIN_PYRAMID_M     1e-20f /* width of a pyramid or sweep */
+
 /* Begins a call. Returns the pixels to test. */
 static inline uint64_t traversal_begin(lmb_traversal *t, uint64_t pixels)
 {
