@@ -18,19 +18,19 @@
 
 #if LMB_TREES
 
-#define FAR     3.0   /* times the mean distance from the centre: limit of members */
+#define MAX_MEAN_DISTANCES 3.0   /* times the mean distance from the centre: limit of members */
 #define TOUCHES 4.0f  /* times the box's size: limit for geometry that touches it and joins it */
 #define SPARE   0.015625f /* share of the area that `wide` may leave out */
 #define FINER   0.0125f   /* of a face's width: a place with fewer than 13 of 1,024 texels gets a separate face */
-enum { ROUNDS = 8, LIMITS = 5, DEEPER = 3, SAMPLES = 8192, RATIO = 16, FEW = 2 };
+enum { MAX_CLUMP_ROUNDS = 8, LIMITS = 5, DEEPER = 3, MAX_SAMPLE_TRIANGLES = 8192, RATIO = 16, MIN_CLUMP_TRIANGLES = 2 };
 
 typedef struct box {
     lmb_vec3 low, high;
 } box;
 
-static float size_of(const box *b) { return largest3(sub3(b->high, b->low)); }
+static float size_of_box(const box *b) { return largest3(sub3(b->high, b->low)); }
 
-static void join(box *inout, const box *b)
+static void join_core_box(box *inout, const box *b)
 {
     inout->low = min3(inout->low, b->low);
     inout->high = max3(inout->high, b->high);
@@ -42,7 +42,7 @@ static int overlap(const box *a, const box *b)
            b->low.y <= a->high.y && b->low.z <= a->high.z;
 }
 
-static int take(box *b, float *area, const lmb_scene *scene, uint32_t id)
+static int take_triangle(box *b, float *area, const lmb_scene *scene, uint32_t id)
 {
     lmb_triangle t;
     lmb_vec3 normal;
@@ -73,7 +73,7 @@ static double distance_from(const clump *c, const box *b)
 
 static int belongs(const clump *c, const box *b)
 {
-    return size_of(b) < c->under && overlap(b, &c->in) && distance_from(c, b) <= c->reach;
+    return size_of_box(b) < c->under && overlap(b, &c->in) && distance_from(c, b) <= c->reach;
 }
 
 /* Sums over the members: area, and area times centre; or, in sum[1], area times distance. */
@@ -85,7 +85,7 @@ static uint32_t sums(double sum[4], const clump *c, const lmb_scene *scene, uint
     for (uint32_t id = 1; id <= all && id >= 1; id += step) {
         box b;
         float area;
-        if (take(&b, &area, scene, id) && belongs(c, &b)) {
+        if (take_triangle(&b, &area, scene, id) && belongs(c, &b)) {
             const double w = 0.5 * (double)area;
             ++count;
             sum[0] += (double)area;
@@ -108,10 +108,10 @@ static int find_clump(clump *c, const lmb_scene *scene, uint32_t step)
     c->at[0] = c->at[1] = c->at[2] = 0.0;
     c->reach = 1e30;
     c->count = 0;
-    for (int round = 0; round < ROUNDS; ++round) {
+    for (int round = 0; round < MAX_CLUMP_ROUNDS; ++round) {
         const uint32_t before = c->count;
         c->count = sums(sum, c, scene, step, 0);
-        if (c->count < FEW || !(sum[0] > 0.0)) {
+        if (c->count < MIN_CLUMP_TRIANGLES || !(sum[0] > 0.0)) {
             return 0;
         }
         if (c->count == before) {
@@ -121,34 +121,34 @@ static int find_clump(clump *c, const lmb_scene *scene, uint32_t step)
             c->at[i] = sum[1 + i] / sum[0];
         }
         sums(sum, c, scene, step, 1);
-        c->reach = FAR * sum[1] / sum[0];
+        c->reach = MAX_MEAN_DISTANCES * sum[1] / sum[0];
     }
     return 1;
 }
 
 /* The clump's own box, then joined with geometry that touches it. in, rest: area in c->in that is inside `out`, and
  * outside. */
-static void box_of(box *out, float *in, float *rest, const clump *c, const lmb_scene *scene)
+static void box_of_clump(box *out, float *in, float *rest, const clump *c, const lmb_scene *scene)
 {
     const uint32_t all = lmb_scene_triangles(scene);
     box own = {{3e38f, 3e38f, 3e38f}, {-3e38f, -3e38f, -3e38f}}, b;
     float area;
     double inside = 0.0, outside = 0.0;
     for (uint32_t id = 1; id <= all; ++id) {
-        if (take(&b, &area, scene, id) && belongs(c, &b)) {
-            join(&own, &b);
+        if (take_triangle(&b, &area, scene, id) && belongs(c, &b)) {
+            join_core_box(&own, &b);
         }
     }
-    const float max = TOUCHES * size_of(&own);
+    const float max = TOUCHES * size_of_box(&own);
     *out = own;
     for (uint32_t id = 1; id <= all; ++id) {
-        if (take(&b, &area, scene, id) && overlap(&b, &own) && size_of(&b) <= max) {
-            join(out, &b);
+        if (take_triangle(&b, &area, scene, id) && overlap(&b, &own) && size_of_box(&b) <= max) {
+            join_core_box(out, &b);
         }
     }
     for (uint32_t id = 1; id <= all; ++id) {
-        if (take(&b, &area, scene, id) && overlap(&b, &c->in)) {
-            const double held = overlap(&b, out) ? (double)minf(area, 2.0f * size_of(out) * size_of(out)) : 0.0;
+        if (take_triangle(&b, &area, scene, id) && overlap(&b, &c->in)) {
+            const double held = overlap(&b, out) ? (double)minf(area, 2.0f * size_of_box(out) * size_of_box(out)) : 0.0;
             inside += held;
             outside += (double)area - held;
         }
@@ -157,7 +157,10 @@ static void box_of(box *out, float *in, float *rest, const clump *c, const lmb_s
     *rest = (float)outside;
 }
 
-static uint32_t step_of(const lmb_scene *scene) { return lmb_scene_triangles(scene) / SAMPLES + 1; }
+static uint32_t step_of_samples(const lmb_scene *scene)
+{
+    return lmb_scene_triangles(scene) / MAX_SAMPLE_TRIANGLES + 1;
+}
 
 /* The box that contains nearly everything: at most half the scene's size, or the scene itself. */
 static void find_wide(box *inout, const lmb_scene *scene)
@@ -166,10 +169,10 @@ static void find_wide(box *inout, const lmb_scene *scene)
     box b;
     float in, rest;
     c.in = *inout;
-    c.under = 0.5f * size_of(inout);
-    if (find_clump(&c, scene, step_of(scene))) {
-        box_of(&b, &in, &rest, &c, scene);
-        *inout = size_of(&b) <= 0.5f * size_of(inout) && rest <= SPARE * in ? b : *inout;
+    c.under = 0.5f * size_of_box(inout);
+    if (find_clump(&c, scene, step_of_samples(scene))) {
+        box_of_clump(&b, &in, &rest, &c, scene);
+        *inout = size_of_box(&b) <= 0.5f * size_of_box(inout) && rest <= SPARE * in ? b : *inout;
     }
 }
 
@@ -177,17 +180,17 @@ static void find_wide(box *inout, const lmb_scene *scene)
 static int find_finer(box *inout, const lmb_scene *scene)
 {
     clump c;
-    float limit = 0.5f * size_of(inout), in, rest;
+    float limit = 0.5f * size_of_box(inout), in, rest;
     c.in = *inout;
     for (int i = 0; i < LIMITS; ++i, limit *= 0.25f) {
         box b;
         c.under = limit;
-        if (!find_clump(&c, scene, step_of(scene))) {
+        if (!find_clump(&c, scene, step_of_samples(scene))) {
             return 0;
         }
-        if (c.reach < (double)(size_of(inout) * FINER)) {
-            box_of(&b, &in, &rest, &c, scene);
-            if (size_of(&b) <= size_of(inout) * FINER) {
+        if (c.reach < (double)(size_of_box(inout) * FINER)) {
+            box_of_clump(&b, &in, &rest, &c, scene);
+            if (size_of_box(&b) <= size_of_box(inout) * FINER) {
                 *inout = b;
                 return 1;
             }
@@ -206,7 +209,7 @@ static int steps_between(float small, float large)
     return n;
 }
 
-static int is_box(const box *b, lmb_vec3 low, lmb_vec3 high)
+static int is_box_between(const box *b, lmb_vec3 low, lmb_vec3 high)
 {
     return memcmp(&b->low, &low, sizeof low) == 0 && memcmp(&b->high, &high, sizeof high) == 0;
 }
@@ -227,9 +230,9 @@ void lmb_scene_core(lmb_core *out, const lmb_scene *scene)
     core = wide;
     for (int i = 0; i < DEEPER && find_finer(&core, scene); ++i) {
     }
-    const int beyond = !is_box(&wide, scene->bounds_min, scene->bounds_max);
-    const int within = 1 + steps_between(size_of(&core), size_of(&wide));
-    if (beyond + within > 1 && size_of(&core) > 0.0f) {
+    const int beyond = !is_box_between(&wide, scene->bounds_min, scene->bounds_max);
+    const int within = 1 + steps_between(size_of_box(&core), size_of_box(&wide));
+    if (beyond + within > 1 && size_of_box(&core) > 0.0f) {
         out->low = core.low;
         out->high = core.high;
         out->wide_low = wide.low;

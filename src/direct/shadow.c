@@ -28,7 +28,7 @@ typedef struct place {
     lmb_vec3 towards; /* from the receiver to the light; directional: unit length */
 } place;
 
-static int32_t choose_face(const lmb_shadow_map *map, lmb_vec3 d)
+static int32_t choose_shadow_face(const lmb_shadow_map *map, lmb_vec3 d)
 {
     lmb_vec3 a = vec3(absf(d.x), absf(d.y), absf(d.z));
     if (map->faces == 1) {
@@ -44,7 +44,8 @@ static int32_t choose_face(const lmb_shadow_map *map, lmb_vec3 d)
 static int find_place(place *out, const lmb_shadow_map *map, const lmb_light *light, lmb_vec3 p)
 {
     const int directional = light_kind_is(light->kind, LIGHT_FAR);
-    int32_t f = LMB_TREES && directional ? lmb_shadow_map_part(map, p) : choose_face(map, sub3(p, light->position));
+    int32_t f =
+        LMB_TREES && directional ? lmb_shadow_map_part(map, p) : choose_shadow_face(map, sub3(p, light->position));
     const lmb_view *v = &map->view[f];
     lmb_vec3 d = sub3(p, v->eye);
     float w = -dot3(v->back, d), size = (float)map->size;
@@ -80,14 +81,14 @@ static float texel_depth(const lmb_fill_window *map, uint32_t x, uint32_t y)
 
 /* Possible rounding of the position, m: 2^-15 of the pixel's distance for the position in the triangle's plane, because
  * edges are snapped to fractions of a pixel; 2^-22 of the coordinates for a few roundings of the resolve. */
-static float noise_of(const lmb_shadow_query *query, const lmb_receiver *r)
+static float noise_of_receiver(const lmb_shadow_query *query, const lmb_receiver *r)
 {
     return 3.0517578e-5f * length3(sub3(r->position, query->view->eye)) + 2.3841858e-7f * length3(r->position);
 }
 
-/* Results of a ray from a place to the light against a triangle. THROUGH is an extra bit: the triangle's plane contains
- * the place. */
-enum { BESIDE = 0, OVER = 1, SHADOWS = 2, THROUGH = 4 };
+/* Results of a ray from a place to the light against a triangle. TEXEL_THROUGH is an extra bit: the triangle's plane
+ * contains the place. */
+enum { TEXEL_BESIDE = 0, TEXEL_OVER = 1, TEXEL_SHADOWS = 2, TEXEL_THROUGH = 4 };
 
 /* Tests whether a triangle lies over a place in the map, with the place behind the triangle's plane. n: normal of the
  * triangle, of any length. noise: m, of the place. */
@@ -98,25 +99,25 @@ static int ask_from(lmb_vec3 *n, const lmb_shadow_query *query, const lmb_triang
     *n = cross3(sub3(b, a), sub3(c, a));
     const float nn = dot3(*n, *n);
     if (!(nn > 1e-36f)) {
-        return BESIDE;
+        return TEXEL_BESIDE;
     }
     float height = dot3(*n, a) / sqrtf(nn); /* of the plane over the place, m, signed */
-    const int through = absf(height) <= noise ? THROUGH : 0;
+    const int through = absf(height) <= noise ? TEXEL_THROUGH : 0;
     /* Signs of the ray to the light against the edges: all equal if it passes inside. */
     float e0 = dot3(at->towards, cross3(b, c)), e1 = dot3(at->towards, cross3(c, a)),
           e2 = dot3(at->towards, cross3(a, b));
     if (!((e0 >= 0.0f && e1 >= 0.0f && e2 >= 0.0f) || (e0 <= 0.0f && e1 <= 0.0f && e2 <= 0.0f))) {
-        return BESIDE | through;
+        return TEXEL_BESIDE | through;
     }
     float rise = dot3(*n, at->towards) / sqrtf(nn); /* slope towards the light, on the same scale */
     float sum = e0 + e1 + e2;
     if (height * rise <= 0.0f || through || sum == 0.0f) {
-        return OVER | through; /* the plane is behind the place, or contains it */
+        return TEXEL_OVER | through; /* the plane is behind the place, or contains it */
     }
     if (absf(height) >= absf(rise) && at->view->kind == LMB_PERSPECTIVE) {
-        return OVER; /* beyond the light */
+        return TEXEL_OVER; /* beyond the light */
     }
-    return lmb_triangle_opaque(t, query->scene, e1 / sum, e2 / sum) ? SHADOWS : BESIDE;
+    return lmb_triangle_opaque(t, query->scene, e1 / sum, e2 / sum) ? TEXEL_SHADOWS : TEXEL_BESIDE;
 }
 
 /* For a receiver on the line of two triangles, as on a floor at the foot of a wall, only rounding would decide which
@@ -127,20 +128,20 @@ static int ask_triangle(const lmb_shadow_query *query, uint32_t id, const lmb_re
     lmb_triangle t;
     lmb_vec3 n;
     if (!lmb_triangle_fetch(&t, query->scene, id)) {
-        return BESIDE;
+        return TEXEL_BESIDE;
     }
     const int answer = ask_from(&n, query, &t, r->position, at, noise);
-    if ((answer & THROUGH) != 0) {
+    if ((answer & TEXEL_THROUGH) != 0) {
         const lmb_view *v = query->view;
         const lmb_vec3 way = v->kind == LMB_PERSPECTIVE ? sub3(v->eye, r->position) : v->back;
         const float change = absf(dot3(n, way)), length = sqrtf(dot3(n, n));
         if (16.0f * change >= length * length3(way) &&
             ask_from(&n, query, &t, add3(r->position, mul3(way, 4.0f * noise * length / change)), at, noise) ==
-                SHADOWS) {
-            return SHADOWS;
+                TEXEL_SHADOWS) {
+            return TEXEL_SHADOWS;
         }
     }
-    return answer & (OVER | SHADOWS);
+    return answer & (TEXEL_OVER | TEXEL_SHADOWS);
 }
 
 /* Compares the nearest texel's surface with the receiver's plane at the centre of the texel. noise: m, of the
@@ -205,7 +206,7 @@ int lmb_is_lit(lmb_shadow_query *query, const lmb_receiver *r)
     if (!find_place(&at, query->map, query->light, r->position) || four_ids(seen, query, &at, r->id)) {
         return 1;
     }
-    const float noise = noise_of(query, r);
+    const float noise = noise_of_receiver(query, r);
     for (int q = 0; q < 4; ++q) {
         int known = 0;
         for (int p = 0; p < q; ++p) {
@@ -215,10 +216,10 @@ int lmb_is_lit(lmb_shadow_query *query, const lmb_receiver *r)
             over = 1;
         } else if (seen[q] != 0 && !known) {
             int answer = ask_triangle(query, seen[q], r, &at, noise);
-            if (answer == SHADOWS) {
+            if (answer == TEXEL_SHADOWS) {
                 return 0;
             }
-            over |= answer == OVER;
+            over |= answer == TEXEL_OVER;
         }
     }
     return over || lit_by_depth(query, &at, r, noise);
