@@ -5,16 +5,16 @@
 #include <string.h>
 
 #include "../base/poly.h"
+#include "../raster/tile.h"
 #include "group.h"
 
 #if LMB_BOUNCE
 
-#define COS_25 0.90630779f
 #define SIN_25 0.42261826f
-#define RIM 1e-3f          /* sine: a point this far below the plane still counts as on it */
+#define MAX_RIM_SINE 1e-3f         /* sine: a point this far below the plane still counts as on it */
 #define KEPT 0x80000000u   /* flag in a link: the other bits are the disc's new index */
 
-enum { REACH = 32 }; /* cells visited in each direction */
+enum { MAX_REACH_CELLS = 32 }; /* cells visited in each direction */
 
 typedef struct neighbourhood {
     lmb_points *points;
@@ -66,13 +66,13 @@ static int next_around(around *a)
  * distance is within the threshold. */
 static int is_neighbour(const neighbourhood *n, const lmb_point *p, const around *a)
 {
-    const int meets = n->hemisphere ? dot3(p->normal, a->away) >= -RIM * a->d
-                                    : dot3(p->normal, a->q->normal) >= COS_25;
+    const int meets =
+        n->hemisphere ? dot3(p->normal, a->away) >= -MAX_RIM_SINE * a->d : dot3(p->normal, a->q->normal) >= TILE_COS_25;
     return meets && (n->threshold <= 0.0f || a->d <= n->threshold);
 }
 
 /* Sets up a search over the cells that can hold points within `radius` m of p, or over n->cells; at most `max` cells
- * away. If that is more than REACH each way, it visits every second, third .. cell.
+ * away. If that is more than MAX_REACH_CELLS each way, it visits every second, third .. cell.
  *
  * A point at depth w m and tangent t on the map that moves by e m, |e| <= radius, changes its tangent by |e_x - t e_w|
  * / (w + e_w), which is at most radius sqrt(1 + t^2) / (w - radius). t is an upper and w a lower bound: both are taken
@@ -92,7 +92,7 @@ static void around_point(around *a, const neighbourhood *n, const lmb_point *p, 
     reach = mini(reach, max);
     a->n = n;
     a->from = p->position;
-    a->step = (reach + REACH - 1) / REACH;
+    a->step = (reach + MAX_REACH_CELLS - 1) / MAX_REACH_CELLS;
     reach = reach / a->step * a->step;
     a->x = a->x0 = x - reach;
     a->x1 = x + reach;
@@ -116,7 +116,7 @@ static float mean_distance(const neighbourhood *n, const lmb_point *p)
     return count > 0.0f ? sum / count : length3(p->axis_u) + length3(p->axis_v);
 }
 
-static void widen(lmb_point *p, float times)
+static void widen_disc(lmb_point *p, float times)
 {
     p->axis_u = mul3(p->axis_u, times);
     p->axis_v = mul3(p->axis_v, times);
@@ -134,7 +134,7 @@ static void join_point(lmb_point *p, const lmb_point *q)
         p->flux[c] += q->flux[c];
         p->albedo[c] += (q->albedo[c] - p->albedo[c]) * share;
     }
-    widen(p, grow);
+    widen_disc(p, grow);
 }
 
 static void join_neighbours(const neighbourhood *n, uint32_t i)
@@ -143,9 +143,9 @@ static void join_neighbours(const neighbourhood *n, uint32_t i)
     const lmb_vec3 normal = p->normal; /* of the disc's first point, as are distances [V12] */
     const float within = n->join * p->distance;
     around a;
-    around_point(&a, n, p, within, REACH);
+    around_point(&a, n, p, within, MAX_REACH_CELLS);
     while (next_around(&a)) {
-        if (a.q > p && a.q->link == a.at - 1 && dot3(normal, a.q->normal) >= COS_25 && a.d < within) {
+        if (a.q > p && a.q->link == a.at - 1 && dot3(normal, a.q->normal) >= TILE_COS_25 && a.d < within) {
             join_point(p, a.q);
             a.q->link = i;
         }
@@ -194,9 +194,9 @@ static int32_t lattice_reach(int32_t thin)
 
 /* 1 if a->q is on p's surface: the normals agree, and the chord leaves the plane by no more than on a surface that
  * turns by 25 degrees. */
-static int is_same_surface(const lmb_point *p, const around *a)
+static int is_point_on_surface(const lmb_point *p, const around *a)
 {
-    return dot3(p->normal, a->q->normal) >= COS_25 && absf(dot3(p->normal, a->away)) <= SIN_25 * a->d;
+    return dot3(p->normal, a->q->normal) >= TILE_COS_25 && absf(dot3(p->normal, a->away)) <= SIN_25 * a->d;
 }
 
 /* The nearest disc (a point that links to itself) on the surface of point i, or i. */
@@ -206,9 +206,9 @@ static uint32_t nearest_disc(const neighbourhood *n, uint32_t i)
     around a;
     uint32_t nearest = i;
     float min = 0.0f;
-    around_point(&a, n, p, 0.0f, REACH);
+    around_point(&a, n, p, 0.0f, MAX_REACH_CELLS);
     while (next_around(&a)) {
-        if (a.q->link == a.at - 1 && is_same_surface(p, &a) && (nearest == i || a.d < min)) {
+        if (a.q->link == a.at - 1 && is_point_on_surface(p, &a) && (nearest == i || a.d < min)) {
             nearest = a.at - 1;
             min = a.d;
         }
@@ -269,7 +269,7 @@ static void set_radius(lmb_points *points, uint32_t first, float radius)
     for (uint32_t i = first; radius > 0.0f && i < points->count; ++i) {
         lmb_point *p = &points->data[i];
         const float area = lmb_disc_area(p);
-        widen(p, area > 0.0f ? radius * p->distance * sqrtf(LMB_PI / area) : 1.0f);
+        widen_disc(p, area > 0.0f ? radius * p->distance * sqrtf(LMB_PI / area) : 1.0f);
     }
 }
 

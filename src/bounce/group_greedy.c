@@ -8,7 +8,7 @@
 
 #define EVERYTHING 1e4f /* a reach this wide takes all remaining discs, regardless of direction */
 #define ANYWHERE 1e18f  /* m */
-#define ROUNDS 64 /* a group that still changes after this many is accepted */
+#define MAX_GROUP_ROUNDS 64     /* a group that still changes after this many is accepted */
 
 static int fits(const lmb_group_sum *g, const lmb_point *d, float reach_m, float cosine)
 {
@@ -51,7 +51,8 @@ uint32_t lmb_group_greedy(lmb_points *points, const lmb_grouping *grouping, floa
             lmb_group_open(&g);
             first->link = groups;
             lmb_group_add(&g, first);
-            for (int round = 0; round < ROUNDS && join_round(&g, points, i + 1, groups, reach_m, grouping->cosine);
+            for (int round = 0;
+                 round < MAX_GROUP_ROUNDS && join_round(&g, points, i + 1, groups, reach_m, grouping->cosine);
                  ++round) {
             }
             ++groups;

@@ -15,7 +15,8 @@
 
 #if LMB_TREES
 
-#define STEEP 0.25f /* share of 1 / w at the centre: if a corner has less, the plane runs away from the light */
+#define MIN_CORNER_SHARE \
+    0.25f /* share of 1 / w at the centre: if a corner has less, the plane runs away from the light */
 
 /* A point of the map, in the plane at distance 1 (m for suns). */
 typedef struct place {
@@ -76,7 +77,7 @@ static float planes_meet(const lmb_view *v, const pair *p)
 
 /* Extends texel a towards b up to their common edge, and b towards a. Extents are rounded so that no gap remains
  * between the two, and so that neither looks like a whole texel. A texel with facets keeps the whole cell. */
-static void set_edge(const lmb_view *v, const pair *p, int a_side, int b_side)
+static void set_crease_edge(const lmb_view *v, const pair *p, int a_side, int b_side)
 {
     const int several = facets_are_several(p->a) || facets_are_several(p->b);
     const float share = several || same_plane(p->a, p->b) ? 0.0f : planes_meet(v, p);
@@ -104,12 +105,12 @@ void lmb_crease_find(const lmb_tree *tree, uint32_t face)
         if (x + 1 < size && flux_sum(p.a[1].flux) > 0.0f) {
             p.b = p.a + 1;
             p.to = middle_of(v, size, x + 1, y);
-            set_edge(v, &p, SIDE_RIGHT, SIDE_LEFT);
+            set_crease_edge(v, &p, SIDE_RIGHT, SIDE_LEFT);
         }
         if (y + 1 < size && flux_sum(p.a[size].flux) > 0.0f) {
             p.b = p.a + size;
             p.to = middle_of(v, size, x, y + 1);
-            set_edge(v, &p, SIDE_DOWN, SIDE_UP);
+            set_crease_edge(v, &p, SIDE_DOWN, SIDE_UP);
         }
     }
 }
@@ -122,20 +123,20 @@ typedef struct cell {
     int planes;
 } cell;
 
-static const lmb_texel *neighbour(const lmb_tree *tree, lmb_node_ref at, int side)
+static const lmb_texel *neighbour_texel(const lmb_tree *tree, lmb_node_ref at, int side)
 {
     return tree_texel(tree, at.face, at.x + (side == SIDE_RIGHT) - (side == SIDE_LEFT),
                       at.y + (side == SIDE_DOWN) - (side == SIDE_UP));
 }
 
-static void cell_at(cell *out, const lmb_tree *tree, lmb_node_ref at)
+static void cell_of_texel(cell *out, const lmb_tree *tree, lmb_node_ref at)
 {
     const lmb_texel *own = tree_texel(tree, at.face, at.x, at.y);
     out->plane[0] = own;
     out->planes = 1;
     for (int side = 0; side < 4; ++side) {
         if (own->side[side] != SIDE_WHOLE) {
-            const lmb_texel *other = neighbour(tree, at, side);
+            const lmb_texel *other = neighbour_texel(tree, at, side);
             int known = 0;
             for (int i = 0; i < out->planes; ++i) {
                 known |= same_plane(out->plane[i], other);
@@ -205,7 +206,7 @@ static int represents(const cell *c, const lmb_texel *a)
 }
 
 /* Part 0: in the texel's own cell; 1 .. 4: in the neighbours' cells. */
-static int part_of(place out[CREASE_CORNERS], const lmb_tree *tree, lmb_node_ref at, int part)
+static int corners_of_part(place out[CREASE_CORNERS], const lmb_tree *tree, lmb_node_ref at, int part)
 {
     const lmb_view *v = &tree->view[at.face];
     const lmb_texel *own = tree_texel(tree, at.face, at.x, at.y);
@@ -219,7 +220,7 @@ static int part_of(place out[CREASE_CORNERS], const lmb_tree *tree, lmb_node_ref
         where.x = (uint16_t)(at.x + (side == SIDE_RIGHT) - (side == SIDE_LEFT));
         where.y = (uint16_t)(at.y + (side == SIDE_DOWN) - (side == SIDE_UP));
     }
-    cell_at(&c, tree, where);
+    cell_of_texel(&c, tree, where);
     return represents(&c, own) ? shape_in(out, &c, v, tree->size, where, middle_of(v, tree->size, at.x, at.y), own) : 0;
 }
 
@@ -232,7 +233,7 @@ NOINLINE int is_steep(const lmb_view *v, const lmb_texel *own, place middle, con
     const float there = slope_along(v, own, ray_at(v, middle));
     int steep = corners > 0 && !(there > 0.0f);
     for (int i = 0; i < corners; ++i) {
-        steep |= slope_along(v, own, ray_at(v, corner[i])) < STEEP * there;
+        steep |= slope_along(v, own, ray_at(v, corner[i])) < MIN_CORNER_SHARE * there;
     }
     return steep;
 }
@@ -246,7 +247,7 @@ float lmb_crease_share(const lmb_tree *tree, lmb_node_ref at)
     float twice = 0.0f;
     for (int part = 0; part < CREASE_PARTS; ++part) {
         place p[CREASE_CORNERS];
-        const int corners = part_of(p, tree, at, part);
+        const int corners = corners_of_part(p, tree, at, part);
         if (is_steep(v, own, middle, p, corners)) {
             return -1.0f;
         }
@@ -262,7 +263,7 @@ int lmb_crease_part(lmb_vec3 corner[CREASE_CORNERS], const lmb_tree *tree, lmb_n
 {
     const lmb_texel *own = tree_texel(tree, at.face, at.x, at.y);
     place flat[CREASE_CORNERS];
-    const int corners = part_of(flat, tree, at, part);
+    const int corners = corners_of_part(flat, tree, at, part);
     for (int i = 0; i < corners; ++i) {
         corner[i] = footprint_over(&tree->view[at.face], own->position, own->normal, flat[i].x, flat[i].y);
     }

@@ -17,7 +17,7 @@
 #if LMB_FACETS
 
 #define HIDDEN 1.0f /* rows of pixels: if more of a part does not show, something hides it */
-#define SMALL 0.5f /* of a cell: a triangle that covers less is small */
+#define MAX_SMALL_SHARE 0.5f /* of a cell: a triangle that covers less is small */
 
 /* --- at the tree's building --------------------------------------------------------------------------------------- */
 
@@ -133,7 +133,7 @@ static void cut_out(lmb_facet *out, const lmb_facets *f, const lmb_triangle *t, 
 }
 
 /* The place of pixel k of the block on a surface. */
-static lmb_vec3 place_of(const lmb_facets *f, int s, int k)
+static lmb_vec3 place_of_corner(const lmb_facets *f, int s, int k)
 {
     const lmb_view *v = &f->tree->view[f->at.face];
     const float size = (float)(f->tree->size * f->each);
@@ -151,7 +151,7 @@ static int are_before(const lmb_facets *f, int of, uint64_t pixels, int s)
 {
     int before = 1;
     for (; pixels != 0 && before; pixels &= pixels - 1) {
-        before = height_over(f, s, place_of(f, of, lowest_bit_64(pixels))) > 0.0f;
+        before = height_over(f, s, place_of_corner(f, of, lowest_bit_64(pixels))) > 0.0f;
     }
     return before;
 }
@@ -274,7 +274,7 @@ static void list_surfaces(lmb_facets *f)
             s->on = t.corner[0];
             s->pixels = own;
             s->id = f->id[k];
-            if (share < SMALL) {
+            if (share < MAX_SMALL_SHARE) {
                 covered += share;
                 shown += (float)count_bits_64(own) * per_pixel;
             }
@@ -334,7 +334,7 @@ static void next_part(lmb_facet *out, lmb_facets *f)
     const lmb_facet_surface *s = &f->surface[f->at_surface];
     lmb_triangle t;
     whole_part(out, &t, f, s->id);
-    const float more = out->area * out->per_area < SMALL ? f->more : 1.0f;
+    const float more = out->area * out->per_area < MAX_SMALL_SHARE ? f->more : 1.0f;
     if (f->left == s->pixels && lacks_pixels(out, f, s->pixels)) {
         clip_by_others(out, f, f->at_surface, s->pixels);
     }

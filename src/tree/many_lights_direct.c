@@ -8,7 +8,7 @@
 
 #if LMB_TREES
 
-#define SURFACES 4 /* max surfaces of a tile with a cut of their own; the last takes the rest */
+#define MAX_TILE_SURFACES 4 /* max surfaces of a tile with a cut of their own; the last takes the rest */
 
 /* --- the tile's surfaces ------------------------------------------------------------------------------------------ */
 
@@ -213,7 +213,7 @@ lmb_status lmb_many_lights_direct_tile(lmb_irradiance *inout, const lmb_kernels 
         s.tile = tile;
         s.query = query;
         s.traversal = &scratch->traversal;
-        s.pixels = n < SURFACES ? tile_surface(tile, left) : left;
+        s.pixels = n < MAX_TILE_SURFACES ? tile_surface(tile, left) : left;
         s.corners = corners_of(s.pixels);
         s.noise = lmb_tile_noise(tile, s.pixels);
         s.job = job_of(tile, s.pixels);
