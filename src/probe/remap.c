@@ -8,7 +8,7 @@
 
 #define INSIDE 0.999f /* of the far world's size: points outside are clamped to it, or to the centre's distance */
 
-static void set_cube(lmb_world_job *job, const lmb_world *w, int is_calm)
+static void set_job_cube(lmb_world_job *job, const lmb_world *w, int is_calm)
 {
     const lmb_world_pictures *p = &w->pictures;
     const lmb_world_level *levels = is_calm ? w->calm : w->cube;
@@ -33,7 +33,7 @@ static void set_cube(lmb_world_job *job, const lmb_world *w, int is_calm)
 }
 
 /* A level serves rays up to one and a half texels wide; for wider ones the next level's texels are closer in size. */
-static void set_ground(lmb_world_job *job, const lmb_world *w)
+static void set_job_ground(lmb_world_job *job, const lmb_world *w)
 {
     const lmb_world_pictures *p = &w->pictures;
     job->ground_levels = w->ground_levels;
@@ -65,8 +65,8 @@ void lmb_world_ask(lmb_world_job *out, const lmb_world *world, int32_t of, float
     out->ray_width = ray_width;
     out->blend = blend;
     out->means = 0;
-    set_cube(out, world, of == LMB_WORLD_CALM && world->peaks > 0);
-    set_ground(out, world);
+    set_job_cube(out, world, of == LMB_WORLD_CALM && world->peaks > 0);
+    set_job_ground(out, world);
 }
 
 /* Flushes values under a millionth of a micrometre to 0: kernels must not meet denormals. */
