@@ -12,7 +12,7 @@
 #if LMB_RELIEF
 
 #define NEAR_BY 4.0f  /* max depth difference of two pixels on one surface, in pixel sides */
-#define EDGE_ON 0.05f /* cosine to the ray below which a plane gives no depth */
+#define MIN_RAY_COSINE 0.05f /* cosine to the ray below which a plane gives no depth */
 
 enum { PASSES = 3 }; /* a corrected pixel can correct the next one */
 
@@ -36,7 +36,7 @@ static lmb_vec3 get(float (*planes)[LMB_TILE_PIXELS], int k)
     return vec3(planes[0][k], planes[1][k], planes[2][k]);
 }
 
-static void put(float (*planes)[LMB_TILE_PIXELS], int k, lmb_vec3 v)
+static void put_tile_place(float (*planes)[LMB_TILE_PIXELS], int k, lmb_vec3 v)
 {
     planes[0][k] = v.x;
     planes[1][k] = v.y;
@@ -53,11 +53,11 @@ uint64_t lmb_relief_beside(int k)
 
 /* Depth at which the plane of pixel k meets the ray. If the plane is nearly parallel to the ray: the depth of pixel
  * k. */
-static float depth_at(const mender *m, const around *a, int k)
+static float depth_at_neighbour(const mender *m, const around *a, int k)
 {
     const lmb_vec3 to = sub3(sub3(get(m->tile->position, k), m->job->eye), a->origin), n = get(m->tile->normal, k);
     const float along = dot3(n, a->along), own = m->tile->depth[k];
-    return along < -EDGE_ON ? clampf(dot3(n, to) / along, own - a->same, own + a->same) : own;
+    return along < -MIN_RAY_COSINE ? clampf(dot3(n, to) / along, own - a->same, own + a->same) : own;
 }
 
 static void look_around(around *out, const mender *m, uint64_t shown, int k)
@@ -71,7 +71,7 @@ static void look_around(around *out, const mender *m, uint64_t shown, int k)
         const int at = lowest_bit_64(bits);
         out->same = NEAR_BY * m->job->pixel * (m->job->perspective ? m->tile->depth[at] : 1.0f);
         out->at[out->hits] = at;
-        out->depth[out->hits++] = depth_at(m, out, at);
+        out->depth[out->hits++] = depth_at_neighbour(m, out, at);
     }
 }
 
@@ -115,10 +115,10 @@ static void take_surface(const mender *m, const around *a, int k)
     }
     depth = depth / n;
     normal = normalize3(normal);
-    put(t->position, k, add3(m->job->eye, add3(a->origin, mul3(a->along, depth))));
-    put(t->face, k, normal);
-    put(t->normal, k, normal);
-    put(t->albedo, k, mul3(albedo, 1.0f / n));
+    put_tile_place(t->position, k, add3(m->job->eye, add3(a->origin, mul3(a->along, depth))));
+    put_tile_place(t->face, k, normal);
+    put_tile_place(t->normal, k, normal);
+    put_tile_place(t->albedo, k, mul3(albedo, 1.0f / n));
     t->depth[k] = depth;
     t->id[k] = t->id[a->at[best]];
 }

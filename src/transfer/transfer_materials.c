@@ -18,7 +18,7 @@ typedef struct part {
 } part;
 
 /* Corner k of the half moves to the point that divides the edge. */
-static void enter_half(part *p, const transfer_halving *h, int second)
+static void enter_piece_half(part *p, const transfer_halving *h, int second)
 {
     const int from = h->from, to = halving_to(from), k = second ? from : to;
     const float rest = 1.0f - h->part;
@@ -62,8 +62,8 @@ static void set_place(lmb_transfer_place *out, const piece_source *s, const part
 
 /* Adds all parts below a root; pending halves lie in `stack`. `left`: remaining visits over all roots. In damaged files
  * halves may share children, and then the number of paths explodes. */
-static void add_parts(const lmb_transfer_light *light, const lmb_transfer *t, const piece_source *s, int back,
-                      uint32_t root, uint32_t *left)
+static void add_piece_parts(const lmb_transfer_light *light, const lmb_transfer *t, const piece_source *s, int back,
+                            uint32_t root, uint32_t *left)
 {
     const uint32_t *node = t->section[LMB_TRANSFER_PIECES];
     part stack[WAITING];
@@ -77,8 +77,8 @@ static void add_parts(const lmb_transfer_light *light, const lmb_transfer *t, co
         while ((node[here.node] & LMB_TRANSFER_LEAF) == 0 && count < WAITING) {
             const transfer_halving h = halving_of(t, node[here.node]);
             stack[count] = here;
-            enter_half(&stack[count++], &h, 1);
-            enter_half(&here, &h, 0);
+            enter_piece_half(&stack[count++], &h, 1);
+            enter_piece_half(&here, &h, 0);
         }
         if (node[here.node] & LMB_TRANSFER_LEAF) {
             const uint32_t element = node[here.node] & ~LMB_TRANSFER_LEAF;
@@ -90,7 +90,7 @@ static void add_parts(const lmb_transfer_light *light, const lmb_transfer *t, co
     }
 }
 
-static float area_of(const lmb_transfer *t, uint32_t element)
+static float area_of_element(const lmb_transfer *t, uint32_t element)
 {
     float area;
     memcpy(&area, t->section[LMB_TRANSFER_AREAS] + element, sizeof area);
@@ -101,7 +101,7 @@ static float area_of(const lmb_transfer *t, uint32_t element)
 static void end_means(const lmb_transfer_light *light, const lmb_transfer *t)
 {
     for (uint32_t i = 0; i < t->count[LMB_TRANSFER_AREAS]; ++i) {
-        const float per = light->power[i][0] > 0.0f ? 1.0f / light->power[i][0] : 0.0f, area = area_of(t, i);
+        const float per = light->power[i][0] > 0.0f ? 1.0f / light->power[i][0] : 0.0f, area = area_of_element(t, i);
         for (int c = 0; c < 3; ++c) {
             light->albedo[i][c] = minf(light->albedo[i][c] * per, 1.0f);
             light->emission[i][c] = area > 0.0f ? minf(LMB_PI * light->emission[i][c] / area, 1e30f) : 0.0f;
@@ -118,7 +118,7 @@ static void set_coarse(const lmb_transfer_light *light, const lmb_transfer *t)
         const uint32_t past =
             i + 1 < count ? first[LMB_TRANSFER_COARSE_WORDS * (size_t)(i + 1)] : t->count[LMB_TRANSFER_AREAS];
         for (; e < past; ++e) {
-            const float area = area_of(t, e);
+            const float area = area_of_element(t, e);
             coarse->area += area;
             for (int c = 0; c < 3; ++c) {
                 coarse->albedo[c] += light->albedo[e][c] * area;
@@ -151,7 +151,7 @@ lmb_status lmb_transfer_materials(const lmb_transfer_light *light, const lmb_tra
         const int exists = lmb_source_open(&s, scene, id);
         for (int back = 0; back < 2 && exists; ++back) {
             if (root[back] != LMB_TRANSFER_NONE) {
-                add_parts(light, t, &s, back, root[back], &left);
+                add_piece_parts(light, t, &s, back, root[back], &left);
             }
         }
     }
