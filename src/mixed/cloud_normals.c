@@ -5,7 +5,7 @@
 
 #if LMB_MIXED
 
-#define LARGEST 1e30f /* 1/m */
+#define MAX_SLOPE_PER_M 1e30f      /* 1/m */
 #define STEEPEST 3.7320508f /* tangent of 75 degrees: max angle between a surface's normal and the ray */
 
 enum { MIN_POINTS = 6, MOST = 6 /* px to each side */, SPAN = 16 /* px */ };
@@ -28,14 +28,14 @@ typedef struct around {
 } around;
 
 /* Replaces values that are not finite by 0: even with weight 0 they would spoil the sums. */
-static void read_row(around *a, int32_t y)
+static void read_around_row(around *a, int32_t y)
 {
     const int32_t width = a->cloud->camera.width, from = maxi(a->x - MOST, 0), to = mini(a->x + SPAN + MOST, width);
     memset(a->near, 0, sizeof a->near);
     memcpy(a->near + (from - a->x + MOST), a->cloud->inverse + (size_t)y * (size_t)width + from,
            (size_t)(to - from) * sizeof(float));
     for (int i = 0; i < SPAN + 2 * MOST; ++i) {
-        a->near[i] = a->near[i] <= LARGEST ? a->near[i] : 0.0f;
+        a->near[i] = a->near[i] <= MAX_SLOPE_PER_M ? a->near[i] : 0.0f;
     }
 }
 
@@ -76,7 +76,7 @@ static void lies_on(around *a, int32_t i, float right, float ray_y)
     }
 }
 
-static void add_row(around *a, int32_t j, int is_again)
+static void add_around_row(around *a, int32_t j, int is_again)
 {
     const float ray_y = a->ray_y - (float)j / a->cloud->camera.fy;
     for (int32_t i = -a->reach; i <= a->reach; i += a->step) {
@@ -95,13 +95,13 @@ static void add_all(around *a, int is_again)
     memset(&a->s, 0, sizeof a->s);
     for (int32_t j = -a->reach; j <= a->reach; j += a->step) {
         if (a->y + j >= 0 && a->y + j < a->cloud->camera.height) {
-            read_row(a, a->y + j);
-            add_row(a, j, is_again);
+            read_around_row(a, a->y + j);
+            add_around_row(a, j, is_again);
         }
     }
 }
 
-static int solve(float slope[3], const around *a, int k)
+static int solve_slope(float slope[3], const around *a, int k)
 {
     const sums *s = &a->s;
     const plane_fit f = {a->ray_x[k], a->ray_y, a->q[k], s->w[k], s->x[k], s->y[k], s->xx[k], s->xy[k], s->yy[k],
@@ -109,7 +109,7 @@ static int solve(float slope[3], const around *a, int k)
     return s->w[k] >= (float)MIN_POINTS && lmb_plane_fit_solve(slope, &f);
 }
 
-static void begin(around *a, const lmb_cloud *cloud, int32_t x, int32_t y)
+static void begin_around(around *a, const lmb_cloud *cloud, int32_t x, int32_t y)
 {
     const lmb_pinhole *c = &cloud->camera;
     const int32_t wide = mini(maxi((int32_t)(c->fx / 90.0f), 2), MOST);
@@ -135,17 +135,18 @@ static void find_span(lmb_vec3 *out, const lmb_cloud *cloud, int32_t x, int32_t 
     around a;
     float first[SPAN][3], again[3], distance;
     int32_t is_found[SPAN];
-    begin(&a, cloud, x, y);
+    begin_around(&a, cloud, x, y);
     add_all(&a, 0);
     for (int32_t k = 0; k < SPAN; ++k) {
-        is_found[k] = a.q[k] > 0.0f && solve(first[k], &a, k);
+        is_found[k] = a.q[k] > 0.0f && solve_slope(first[k], &a, k);
         for (int c = 0; c < 3; ++c) {
             a.slope[c][k] = is_found[k] ? first[k][c] : 0.0f;
         }
     }
     add_all(&a, 1);
     for (int32_t k = 0; k < count; ++k) {
-        out[k] = is_found[k] ? lmb_plane_normal(&distance, solve(again, &a, k) ? again : first[k]) : vec3(0, 0, 0);
+        out[k] =
+            is_found[k] ? lmb_plane_normal(&distance, solve_slope(again, &a, k) ? again : first[k]) : vec3(0, 0, 0);
     }
 }
 

@@ -12,7 +12,7 @@ enum { SUB = 4 }; /* samples along each side of a texel */
 
 /* Maps a direction in camera space to the picture, 0 .. 1 each way. The half width of the visible part grows from a
  * sixth at the front edge of a cube side to a half at the back edge. */
-static void fold(float *u, float *v, lmb_vec3 d)
+static void fold_direction(float *u, float *v, lmb_vec3 d)
 {
     const float x = absf(d.x), y = absf(d.y), z = absf(d.z), far = maxf(maxf(x, y), z);
     const float m = z >= x && z >= y ? INNER : INNER + (1.0f + d.z / far) * INNER;
@@ -20,7 +20,7 @@ static void fold(float *u, float *v, lmb_vec3 d)
     *v = 0.5f - d.y / far * m;
 }
 
-static const float *pixel_at(const float *rgb, int32_t width, int32_t height, float u, float v)
+static const float *photo_pixel(const float *rgb, int32_t width, int32_t height, float u, float v)
 {
     const int32_t x = mini(maxi((int32_t)(u * (float)width), 0), width - 1),
                   y = mini(maxi((int32_t)(v * (float)height), 0), height - 1);
@@ -42,8 +42,8 @@ static void fold_texel(float out[3], const lmb_env *env, const picture *from, cu
         float u, v;
         const int32_t x = SUB * at.x + k % SUB, y = SUB * at.y + k / SUB;
         const lmb_vec3 d = cube_point(at.face, cube_coordinate(x, n), cube_coordinate(y, n));
-        fold(&u, &v, vec3(dot3(from->axes->right, d), dot3(from->axes->up, d), dot3(from->axes->back, d)));
-        const float *p = pixel_at(from->rgb, from->width, from->height, u, v);
+        fold_direction(&u, &v, vec3(dot3(from->axes->right, d), dot3(from->axes->up, d), dot3(from->axes->back, d)));
+        const float *p = photo_pixel(from->rgb, from->width, from->height, u, v);
         for (int32_t c = 0; c < 3; ++c) {
             out[c] += p[c] > 0.0f && p[c] < 1e6f ? p[c] * (1.0f / (SUB * SUB)) : 0.0f;
         }

@@ -56,7 +56,7 @@ static int may_join(const lmb_planes *p, const lmb_cloud *cloud, int32_t at, uin
 }
 
 /* Assigns points at edges to adjacent planes: their normals are means of two surfaces. */
-static void spread(lmb_planes *p, const lmb_cloud *cloud)
+static void spread_planes(lmb_planes *p, const lmb_cloud *cloud)
 {
     const int32_t w = cloud->camera.width, h = cloud->camera.height;
     int32_t count = 0;
@@ -142,7 +142,7 @@ static void fill_holes(lmb_planes *p, const lmb_cloud *cloud)
 void lmb_planes_outline(lmb_planes *planes, const lmb_cloud *cloud)
 {
     settle(planes, cloud);
-    spread(planes, cloud);
+    spread_planes(planes, cloud);
     fill_holes(planes, cloud);
 }
 
@@ -163,7 +163,7 @@ void lmb_planes_farthest(float min[LMB_MAX_PLANES], const lmb_planes *planes, co
 }
 
 /* Sets `across` to the direction in the plane nearest to the camera's x. */
-static void set_axes(lmb_flat *p)
+static void set_plane_axes(lmb_flat *p)
 {
     const lmb_vec3 side = absf(p->normal.x) < 0.9f ? vec3(1, 0, 0) : vec3(0, 0, -1);
     p->across = normalize3(sub3(side, mul3(p->normal, dot3(side, p->normal))));
@@ -271,7 +271,7 @@ void lmb_planes_measure(lmb_planes *planes, const lmb_cloud *cloud)
     for (int32_t i = 0; i < planes->count; ++i) {
         lmb_flat *p = &planes->plane[i];
         p->normal = lmb_plane_normal(&p->distance, p->slope);
-        set_axes(p);
+        set_plane_axes(p);
         find_extent(p, planes, &cloud->camera, i + 1, min[i]);
     }
 }

@@ -114,7 +114,7 @@ static int surface_at(surface *s, const maker *m, int32_t x, int32_t y)
     return 1;
 }
 
-static void put_pixel(lmb_tile *out, int32_t k, const surface *s)
+static void put_real_pixel(lmb_tile *out, int32_t k, const surface *s)
 {
     const float p[3] = {s->position.x, s->position.y, s->position.z}, f[3] = {s->face.x, s->face.y, s->face.z},
                 n[3] = {s->normal.x, s->normal.y, s->normal.z};
@@ -143,7 +143,7 @@ lmb_status lmb_real_tile(lmb_tile *out, const lmb_cloud *cloud, const lmb_planes
         surface s;
         const int32_t px = x + k % LMB_TILE, py = y + k / LMB_TILE;
         if (px < cloud->camera.width && py < cloud->camera.height && surface_at(&s, &m, px, py)) {
-            put_pixel(out, k, &s);
+            put_real_pixel(out, k, &s);
         }
     }
     return LMB_OK;
