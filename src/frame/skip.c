@@ -79,7 +79,7 @@ static void skip_faces(lmb_shadow_map *map, const lmb_scene *s)
 
 /* Does the light's range end before the scene's box? The margin is a thousandth, because rounding may move pixels out
  * of the box. */
-static int ends_before(const lmb_light *l, const lmb_scene *s)
+static int light_ends_before(const lmb_light *l, const lmb_scene *s)
 {
     const lmb_vec3 low = sub3(s->bounds_min, l->position), high = sub3(l->position, s->bounds_max);
     const lmb_vec3 gap = vec3(maxf(maxf(low.x, high.x), 0.0f), maxf(maxf(low.y, high.y), 0.0f),
@@ -166,7 +166,7 @@ void lmb_render_skip(lmb_render *r)
     r->emits = r->emits && l.emits;
     r->is_glossy = r->is_glossy && l.is_glossy;
     for (uint32_t i = 0; i < s->light_count; ++i) {
-        if (!any3(s->lights[i].intensity) || ends_before(&s->lights[i], s)) {
+        if (!any3(s->lights[i].intensity) || light_ends_before(&s->lights[i], s)) {
             r->light_state[i] |= LMB_LIGHT_DARK;
             r->maps[i].drawn = 0;
         } else {
