@@ -12,7 +12,7 @@ typedef struct edge {
     int32_t x, y, slope; /* 1/16 px; slope in 2^-14 */
 } edge;
 
-static edge edge_of(const lmb_fixed_vertex *from, const lmb_fixed_vertex *to)
+static edge fixed_edge_of(const lmb_fixed_vertex *from, const lmb_fixed_vertex *to)
 {
     const int32_t down = to->y - from->y;
     edge e = {from->x, from->y, 0};
@@ -26,10 +26,13 @@ static edge edge_of(const lmb_fixed_vertex *from, const lmb_fixed_vertex *to)
 }
 
 /* x in 2^-14 px, for a row with the centre between the edge's ends. */
-static int32_t edge_at(const edge *e, int32_t middle) { return e->x * 1024 + ((e->slope * (middle - e->y)) >> 4); }
+static int32_t fixed_edge_at(const edge *e, int32_t middle)
+{
+    return e->x * 1024 + ((e->slope * (middle - e->y)) >> 4);
+}
 
 /* The first pixel with a centre not left of x. */
-static int32_t first_pixel(int32_t x) { return (x + 8191) >> 14; }
+static int32_t first_fixed_pixel(int32_t x) { return (x + 8191) >> 14; }
 
 /* A linear value on the triangle: at the first corner, and per 1/16 px. */
 typedef struct plane {
@@ -65,16 +68,16 @@ static int is_gentle(const plane *p, uint32_t most_of)
     return p->per_x + most_of <= 2u * most_of && p->per_y + most_of <= 2u * most_of;
 }
 
-static uint32_t mean_of(int32_t f0, int32_t f1, int32_t f2) { return (uint32_t)(f0 + f1 + f2) * 21845u >> 16; }
+static uint32_t mean_of_thirds(int32_t f0, int32_t f1, int32_t f2) { return (uint32_t)(f0 + f1 + f2) * 21845u >> 16; }
 
 /* Returns 1 if the plane is gentle. A triangle so steep that the whole change is within 1/16 px gets the mean of the
  * corners. Depth differences are below 65,504, and coordinates below 15,361 because of the guard band: the two products
  * together fit 31 bits. */
-static int set_depth(plane *out, const slant *s, int32_t f0, int32_t f1, int32_t f2)
+static int set_fixed_depth(plane *out, const slant *s, int32_t f0, int32_t f1, int32_t f2)
 {
     const int32_t a = f1 - f0, b = f2 - f0, x = a * s->y2 - b * s->y1, y = b * s->x1 - a * s->x2;
     if ((x < 0 ? -x : x) >> DEPTH_STEEP > s->area || (y < 0 ? -y : y) >> DEPTH_STEEP > s->area) {
-        out->at = mean_of(f0, f1, f2) << DEPTH_BITS;
+        out->at = mean_of_thirds(f0, f1, f2) << DEPTH_BITS;
         out->per_x = out->per_y = 0;
         return 1;
     }
@@ -89,7 +92,7 @@ static int set_colour(plane *out, const slant *s, int32_t f0, int32_t f1, int32_
 {
     const int32_t a = f1 - f0, b = f2 - f0, x = a * s->y2 - b * s->y1, y = b * s->x1 - a * s->x2;
     if ((x < 0 ? -x : x) >> COLOUR_STEEP > s->area || (y < 0 ? -y : y) >> COLOUR_STEEP > s->area) {
-        out->at = (mean_of(f0, f1, f2) << COLOUR_BITS) + 32768u;
+        out->at = (mean_of_thirds(f0, f1, f2) << COLOUR_BITS) + 32768u;
         out->per_x = out->per_y = 0;
         return 1;
     }
@@ -112,7 +115,7 @@ typedef struct span {
 static const uint16_t dithers[4][8] = {ROW(0, 8, 2, 10), ROW(12, 4, 14, 6), ROW(3, 11, 1, 9), ROW(15, 7, 13, 5)};
 
 /* Dithered colours -> a 16-bit pixel; or several at once, each in 16 bits of a word of `type`. */
-#define EACH(type, v) ((type)-1 / 0xffffu * (v))
+#define IN_EACH_HALF(type, v)         ((type)-1 / 0xffffu * (v))
 #define PACK_555(high, one, r, g, b) (((((r) & (high)) >> 5 | ((g) & (high))) >> 5 | ((b) & (high))) >> 1)
 #define PACK_5551(high, one, r, g, b) (((r) & (high)) | (((g) & (high)) | ((b) & (high)) >> 5) >> 5 | (one))
 
@@ -133,46 +136,47 @@ typedef uint32_t __attribute__((may_alias)) two_pixels;
 #else
 #define IN_MEMORY(two) (two)
 #endif
-#define STORE_TWO(place, pack, which)                                                                     \
-    {                                                                                                     \
-        const uint32_t two = pack(high, EACH(uint32_t, 1u), reds_##which, greens_##which, blues_##which); \
-        *(two_pixels *)(void *)(to + (place)) = IN_MEMORY(two);                                           \
+#define STORE_TWO(place, pack, which) \
+    { \
+        const uint32_t two = pack(high, IN_EACH_HALF(uint32_t, 1u), reds_##which, greens_##which, blues_##which); \
+        *(two_pixels *)(void *)(to + (place)) = IN_MEMORY(two); \
     }
-#define HULL_LOOP(pack)                                                                                      \
-    if (((uintptr_t)to & 2u) != 0) {                                                                         \
-        HULL_PIXEL(pack)                                                                                     \
-    }                                                                                                        \
-    uint32_t high = EACH(uint32_t, 0xf800u);                                                                 \
-    KEEP(high);                                                                                              \
-    const uint32_t dither_0 = dither[0] | (uint32_t)dither[1] << 16,                                         \
-                   dither_1 = (dither[2] | (uint32_t)dither[3] << 16) - dither_0;                            \
-    uint32_t reds_0 = EACH(uint32_t, red) + (s->red_step << 16) + dither_0,                                  \
-             greens_0 = EACH(uint32_t, green) + (s->green_step << 16) + dither_0,                            \
-             blues_0 = EACH(uint32_t, blue) + (s->blue_step << 16) + dither_0,                               \
-             reds_1 = reds_0 + EACH(uint32_t, 2u * s->red_step) + dither_1,                                  \
-             greens_1 = greens_0 + EACH(uint32_t, 2u * s->green_step) + dither_1,                            \
-             blues_1 = blues_0 + EACH(uint32_t, 2u * s->blue_step) + dither_1;                               \
-    const uint32_t red_by = EACH(uint32_t, 4u * s->red_step), green_by = EACH(uint32_t, 4u * s->green_step), \
-                   blue_by = EACH(uint32_t, 4u * s->blue_step);                                              \
-    for (const uint16_t *const fours = to + ((past - to) & ~3); to != fours; to += 4) {                      \
-        KEEP(reds_0);                                                                                        \
-        KEEP(greens_0);                                                                                      \
-        KEEP(blues_0);                                                                                       \
-        KEEP(reds_1);                                                                                        \
-        KEEP(greens_1);                                                                                      \
-        KEEP(blues_1);                                                                                       \
-        STORE_TWO(0, pack, 0)                                                                                \
-        STORE_TWO(2, pack, 1)                                                                                \
-        reds_0 += red_by, greens_0 += green_by, blues_0 += blue_by;                                          \
-        reds_1 += red_by, greens_1 += green_by, blues_1 += blue_by;                                          \
-    }                                                                                                        \
-    if (past - to >= 2) {                                                                                    \
-        STORE_TWO(0, pack, 0)                                                                                \
-        to += 2;                                                                                             \
-        reds_0 = reds_1, greens_0 = greens_1, blues_0 = blues_1;                                             \
-    }                                                                                                        \
-    if (to != past) {                                                                                        \
-        *to = (uint16_t)pack(high, 1u, reds_0, greens_0, blues_0);                                           \
+#define HULL_LOOP(pack) \
+    if (((uintptr_t)to & 2u) != 0) { \
+        HULL_PIXEL(pack) \
+    } \
+    uint32_t high = IN_EACH_HALF(uint32_t, 0xf800u); \
+    KEEP(high); \
+    const uint32_t dither_0 = dither[0] | (uint32_t)dither[1] << 16, \
+                   dither_1 = (dither[2] | (uint32_t)dither[3] << 16) - dither_0; \
+    uint32_t reds_0 = IN_EACH_HALF(uint32_t, red) + (s->red_step << 16) + dither_0, \
+             greens_0 = IN_EACH_HALF(uint32_t, green) + (s->green_step << 16) + dither_0, \
+             blues_0 = IN_EACH_HALF(uint32_t, blue) + (s->blue_step << 16) + dither_0, \
+             reds_1 = reds_0 + IN_EACH_HALF(uint32_t, 2u * s->red_step) + dither_1, \
+             greens_1 = greens_0 + IN_EACH_HALF(uint32_t, 2u * s->green_step) + dither_1, \
+             blues_1 = blues_0 + IN_EACH_HALF(uint32_t, 2u * s->blue_step) + dither_1; \
+    const uint32_t red_by = IN_EACH_HALF(uint32_t, 4u * s->red_step), \
+                   green_by = IN_EACH_HALF(uint32_t, 4u * s->green_step), \
+                   blue_by = IN_EACH_HALF(uint32_t, 4u * s->blue_step); \
+    for (const uint16_t *const fours = to + ((past - to) & ~3); to != fours; to += 4) { \
+        KEEP(reds_0); \
+        KEEP(greens_0); \
+        KEEP(blues_0); \
+        KEEP(reds_1); \
+        KEEP(greens_1); \
+        KEEP(blues_1); \
+        STORE_TWO(0, pack, 0) \
+        STORE_TWO(2, pack, 1) \
+        reds_0 += red_by, greens_0 += green_by, blues_0 += blue_by; \
+        reds_1 += red_by, greens_1 += green_by, blues_1 += blue_by; \
+    } \
+    if (past - to >= 2) { \
+        STORE_TWO(0, pack, 0) \
+        to += 2; \
+        reds_0 = reds_1, greens_0 = greens_1, blues_0 = blues_1; \
+    } \
+    if (to != past) { \
+        *to = (uint16_t)pack(high, 1u, reds_0, greens_0, blues_0); \
     }
 
 #else
@@ -190,44 +194,46 @@ typedef uint32_t __attribute__((may_alias)) two_pixels;
     }
 
 /* The two loops of a format: with a depth test, two by two; and for the hull, which is behind all else. */
-#define LOOPS(name, pack)                                                                                          \
-    static void fill_deep_##name(void *pixels, uint16_t *to_depth, int32_t count, const span *s)                   \
-    {                                                                                                              \
-        uint16_t *to = (uint16_t *)pixels, *const past = to + count;                                               \
-        const uint16_t *dither = s->dither;                                                                        \
-        uint32_t depth = s->depth, red = s->red, green = s->green, blue = s->blue;                                 \
-        if (count & 1) {                                                                                           \
-            const uint32_t depth_0 = depth >> DEPTH_BITS, d = *dither++;                                           \
-            DEEP_PIXEL(0, pack(0xf800u, 1u, red + d, green + d, blue + d))                                         \
-            depth += s->depth_step, red += s->red_step, green += s->green_step, blue += s->blue_step;              \
-            ++to, ++to_depth;                                                                                      \
-        }                                                                                                          \
-        const uint32_t depth_step = s->depth_step, red_by = EACH(uint32_t, 2u * s->red_step),                      \
-                       green_by = EACH(uint32_t, 2u * s->green_step), blue_by = EACH(uint32_t, 2u * s->blue_step); \
-        uint32_t high = EACH(uint32_t, 0xf800u);                                                                   \
-        KEEP(high);                                                                                                \
-        uint32_t d = dither[0] | (uint32_t)dither[1] << 16;                                                        \
-        const uint32_t other = d ^ (dither[2] | (uint32_t)dither[3] << 16);                                        \
-        red = EACH(uint32_t, red) + (s->red_step << 16), green = EACH(uint32_t, green) + (s->green_step << 16);    \
-        blue = EACH(uint32_t, blue) + (s->blue_step << 16);                                                        \
-        for (; to != past; to += 2, to_depth += 2, d ^= other) {                                                   \
-            const uint32_t depth_0 = depth >> DEPTH_BITS, depth_1 = (depth + depth_step) >> DEPTH_BITS;            \
-            depth += 2 * depth_step;                                                                               \
-            if (depth_0 > to_depth[0] || depth_1 > to_depth[1]) {                                                  \
-                const uint32_t two = pack(high, EACH(uint32_t, 1u), red + d, green + d, blue + d);                 \
-                DEEP_PIXEL(0, two)                                                                                 \
-                DEEP_PIXEL(1, two >> 16)                                                                           \
-            }                                                                                                      \
-            red += red_by, green += green_by, blue += blue_by;                                                     \
-        }                                                                                                          \
-    }                                                                                                              \
-    static void fill_hull_##name(void *pixels, uint16_t *to_depth, int32_t count, const span *s)                   \
-    {                                                                                                              \
-        uint16_t *to = (uint16_t *)pixels, *const past = to + count;                                               \
-        const uint16_t *dither = s->dither;                                                                        \
-        uint32_t red = s->red, green = s->green, blue = s->blue;                                                   \
-        (void)to_depth;                                                                                            \
-        HULL_LOOP(pack)                                                                                            \
+#define LOOPS(name, pack) \
+    static void fill_deep_##name(void *pixels, uint16_t *to_depth, int32_t count, const span *s) \
+    { \
+        uint16_t *to = (uint16_t *)pixels, *const past = to + count; \
+        const uint16_t *dither = s->dither; \
+        uint32_t depth = s->depth, red = s->red, green = s->green, blue = s->blue; \
+        if (count & 1) { \
+            const uint32_t depth_0 = depth >> DEPTH_BITS, d = *dither++; \
+            DEEP_PIXEL(0, pack(0xf800u, 1u, red + d, green + d, blue + d)) \
+            depth += s->depth_step, red += s->red_step, green += s->green_step, blue += s->blue_step; \
+            ++to, ++to_depth; \
+        } \
+        const uint32_t depth_step = s->depth_step, red_by = IN_EACH_HALF(uint32_t, 2u * s->red_step), \
+                       green_by = IN_EACH_HALF(uint32_t, 2u * s->green_step), \
+                       blue_by = IN_EACH_HALF(uint32_t, 2u * s->blue_step); \
+        uint32_t high = IN_EACH_HALF(uint32_t, 0xf800u); \
+        KEEP(high); \
+        uint32_t d = dither[0] | (uint32_t)dither[1] << 16; \
+        const uint32_t other = d ^ (dither[2] | (uint32_t)dither[3] << 16); \
+        red = IN_EACH_HALF(uint32_t, red) + (s->red_step << 16), \
+        green = IN_EACH_HALF(uint32_t, green) + (s->green_step << 16); \
+        blue = IN_EACH_HALF(uint32_t, blue) + (s->blue_step << 16); \
+        for (; to != past; to += 2, to_depth += 2, d ^= other) { \
+            const uint32_t depth_0 = depth >> DEPTH_BITS, depth_1 = (depth + depth_step) >> DEPTH_BITS; \
+            depth += 2 * depth_step; \
+            if (depth_0 > to_depth[0] || depth_1 > to_depth[1]) { \
+                const uint32_t two = pack(high, IN_EACH_HALF(uint32_t, 1u), red + d, green + d, blue + d); \
+                DEEP_PIXEL(0, two) \
+                DEEP_PIXEL(1, two >> 16) \
+            } \
+            red += red_by, green += green_by, blue += blue_by; \
+        } \
+    } \
+    static void fill_hull_##name(void *pixels, uint16_t *to_depth, int32_t count, const span *s) \
+    { \
+        uint16_t *to = (uint16_t *)pixels, *const past = to + count; \
+        const uint16_t *dither = s->dither; \
+        uint32_t red = s->red, green = s->green, blue = s->blue; \
+        (void)to_depth; \
+        HULL_LOOP(pack) \
     }
 LOOPS(555, PACK_555)
 LOOPS(5551, PACK_5551)
@@ -367,8 +373,8 @@ ALWAYS_INLINE void fill_rows(const fixed_band *b, const lmb_fixed_ready *r, int3
         lmb_fixed_edge left = {is_whole_left ? whole.at : other_at, is_whole_left ? whole.slope : other->slope},
                        right = {is_whole_left ? other_at : whole.at, is_whole_left ? other->slope : whole.slope};
         for (; y < end; ++y) {
-            const int32_t x = maxi(first_pixel(left.at), most_left),
-                          count = mini(first_pixel(right.at), most_right) - x;
+            const int32_t x = maxi(first_fixed_pixel(left.at), most_left),
+                          count = mini(first_fixed_pixel(right.at), most_right) - x;
             if (count > 0) {
                 const int32_t by = x - at;
                 if (by == 1) {
@@ -424,10 +430,10 @@ void lmb_fixed_fill(const fixed_band *b, const lmb_fixed_ready *r)
 }
 
 /* Sets an edge at the centre of a row. */
-static void set_edge(lmb_fixed_edge *out, const lmb_fixed_vertex *from, const lmb_fixed_vertex *to, int32_t row)
+static void set_fixed_edge(lmb_fixed_edge *out, const lmb_fixed_vertex *from, const lmb_fixed_vertex *to, int32_t row)
 {
-    const edge e = edge_of(from, to);
-    out->at = edge_at(&e, 16 * row + 8);
+    const edge e = fixed_edge_of(from, to);
+    out->at = fixed_edge_at(&e, 16 * row + 8);
     out->slope = e.slope;
 }
 
@@ -475,7 +481,7 @@ int lmb_fixed_set_up(lmb_fixed_ready *out, const lmb_fixed_vertex *c0, const lmb
     out->right = (int16_t)mini((maxi(c0->x, maxi(c1->x, c2->x)) + 8) >> 4, width);
     int is_gentle = out->right - out->left <= GENTLE_ACROSS;
     if (has_depth) {
-        is_gentle &= set_depth(&p, &s, c0->depth, c1->depth, c2->depth);
+        is_gentle &= set_fixed_depth(&p, &s, c0->depth, c1->depth, c2->depth);
         set_number(out, 0, &p, c0);
     } else {
         out->at[0] = out->per_x[0] = out->per_y[0] = 0;
@@ -487,12 +493,12 @@ int lmb_fixed_set_up(lmb_fixed_ready *out, const lmb_fixed_vertex *c0, const lmb
     out->is_gentle = (uint8_t)is_gentle;
     out->is_whole_left =
         (middle->x - top->x) * (bottom->y - top->y) - (bottom->x - top->x) * (middle->y - top->y) > 0;
-    set_edge(&out->whole, top, bottom, y0);
+    set_fixed_edge(&out->whole, top, bottom, y0);
     if (y0 < y1) {
-        set_edge(&out->upper, top, middle, y0);
+        set_fixed_edge(&out->upper, top, middle, y0);
     }
     if (y1 < y2) {
-        set_edge(&out->lower, middle, bottom, y1);
+        set_fixed_edge(&out->lower, middle, bottom, y1);
     }
     return 1;
 }

@@ -6,11 +6,11 @@
 #include "fixed_part.h"
 #include "number.h"
 
-enum { LIGHT_MOST = 1 << 26, FULL = 32768, AROUND = 8 };
+enum { LIGHT_MOST = 1 << 26, FULL = 32768, CELL_CORNERS = 8 };
 
 /* The places around the lamp, with weights that sum to less than FULL. */
 typedef struct around {
-    uint32_t word[AROUND], bit[AROUND], weight[AROUND];
+    uint32_t word[CELL_CORNERS], bit[CELL_CORNERS], weight[CELL_CORNERS];
     int count;
 } around;
 
@@ -27,7 +27,7 @@ typedef struct lamp_now {
 /* --- places ------------------------------------------------------------------------------------------------------- */
 
 /* The cell that holds a coordinate, and the position in it, 0 .. 256. */
-static int32_t cell_of(uint32_t *part, int32_t at, int32_t places, int32_t spacing)
+static int32_t cell_between(uint32_t *part, int32_t at, int32_t places, int32_t spacing)
 {
     const int32_t free = zeros_above((uint32_t)spacing);
     const uint32_t per = reciprocal((uint32_t)spacing << free); /* 2^(62 - free) / spacing */
@@ -41,17 +41,20 @@ static int32_t cell_of(uint32_t *part, int32_t at, int32_t places, int32_t spaci
     return cell;
 }
 
-static int is_valid(const lmb_fixed *s, uint32_t place) { return (int)(s->valid[place >> 5] >> (place & 31u) & 1u); }
+static int is_light_place(const lmb_fixed *s, uint32_t place)
+{
+    return (int)(s->valid[place >> 5] >> (place & 31u) & 1u);
+}
 
 NOINLINE void find_places(around *out, const lmb_fixed *s, const int32_t at[3])
 {
-    uint32_t part[3], place[AROUND] = {0}, weight[AROUND] = {0}, sum = 0;
+    uint32_t part[3], place[CELL_CORNERS] = {0}, weight[CELL_CORNERS] = {0}, sum = 0;
     int32_t cell[3];
     for (int i = 0; i < 3; ++i) {
-        cell[i] = cell_of(&part[i], at[i] - s->first[i], s->places[i], s->spacing);
+        cell[i] = cell_between(&part[i], at[i] - s->first[i], s->places[i], s->spacing);
     }
     out->count = 0;
-    for (int k = 0; k < AROUND; ++k) {
+    for (int k = 0; k < CELL_CORNERS; ++k) {
         uint32_t own = 1, index = 0;
         for (int i = 2; i >= 0; --i) {
             const int up = k >> i & 1;
@@ -59,7 +62,7 @@ NOINLINE void find_places(around *out, const lmb_fixed *s, const int32_t at[3])
             index = index * (uint32_t)s->places[i] + (uint32_t)mini(cell[i] + up, s->places[i] - 1);
         }
         own >>= 9; /* of 2^24 */
-        if (own > 1 && is_valid(s, index)) {
+        if (own > 1 && is_light_place(s, index)) {
             place[out->count] = index;
             weight[out->count++] = own;
             sum += own;
@@ -189,7 +192,7 @@ LOOP_APART void links_at(uint32_t out[3], const lmb_fixed *s, const uint16_t (*e
     out[2] = high_of(blue, row[1]) << up >> less;
 }
 
-static void set_sent(uint16_t out[4], const uint32_t light[3], const fixed_receiver *r, int32_t down)
+static void set_receiver_sent(uint16_t out[4], const uint32_t light[3], const fixed_receiver *r, int32_t down)
 {
     for (int c = 0; c < 3; ++c) {
         const uint32_t v = reflected(light[c], r->albedo[c]) >> down;
@@ -199,7 +202,7 @@ static void set_sent(uint16_t out[4], const uint32_t light[3], const fixed_recei
 }
 
 /* Computes the total light that each element sends. Returns the number of bits that it is shifted down by. */
-static int32_t solve(uint16_t (*sent)[4], const lmb_fixed_frame *f, const lamp_now *l)
+static int32_t solve_light(uint16_t (*sent)[4], const lmb_fixed_frame *f, const lamp_now *l)
 {
     const lmb_fixed *s = f->scene;
     fixed_receiver r;
@@ -221,7 +224,7 @@ static int32_t solve(uint16_t (*sent)[4], const lmb_fixed_frame *f, const lamp_n
                 more[c] += f->direct[i][c];
             }
             fixed_receiver_at(&r, s, s->vertices + i);
-            set_sent(sent[i], more, &r, down);
+            set_receiver_sent(sent[i], more, &r, down);
         }
     }
     return down;
@@ -267,7 +270,7 @@ lmb_status lmb_fixed_light(lmb_fixed_frame *f)
     }
     f->ready_count = 0;
     set_lamp(&l, f->scene, &f->lamp);
-    const int32_t down = f->bounces > 0 ? solve(sent, f, &l) : 0;
+    const int32_t down = f->bounces > 0 ? solve_light(sent, f, &l) : 0;
     for (uint32_t i = 0; i < f->scene->vertices; ++i) {
         if (f->vertex[i].flags & FIXED_USED) {
             shade(&f->vertex[i], (const uint16_t(*)[4])sent, f->bounces > 0, &l, i, down);

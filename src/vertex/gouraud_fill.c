@@ -12,11 +12,11 @@
 
 #if LMB_TRANSFER
 
-enum { CORNERS = 8 }; /* of a triangle cut by five planes */
+enum { MAX_CLIPPED_CORNERS = 8 }; /* of a triangle cut by five planes */
 
 /* --- before the division ------------------------------------------------------------------------------------------ */
 
-static void set_row(float row[4], lmb_vec3 axis, const lmb_mat4 *t, lmb_vec3 eye)
+static void set_gouraud_row(float row[4], lmb_vec3 axis, const lmb_mat4 *t, lmb_vec3 eye)
 {
     const float *m = t->m;
     for (int c = 0; c < 3; ++c) {
@@ -27,9 +27,9 @@ static void set_row(float row[4], lmb_vec3 axis, const lmb_mat4 *t, lmb_vec3 eye
 
 void lmb_gouraud_view_of(gouraud_view *out, const lmb_view *v, const lmb_mat4 *to_world)
 {
-    set_row(out->row[0], mul3(v->right, 1.0f / v->half_width), to_world, v->eye);
-    set_row(out->row[1], mul3(v->up, 1.0f / v->half_height), to_world, v->eye);
-    set_row(out->row[2], mul3(v->back, -1.0f), to_world, v->eye);
+    set_gouraud_row(out->row[0], mul3(v->right, 1.0f / v->half_width), to_world, v->eye);
+    set_gouraud_row(out->row[1], mul3(v->up, 1.0f / v->half_height), to_world, v->eye);
+    set_gouraud_row(out->row[2], mul3(v->back, -1.0f), to_world, v->eye);
     out->near_m = v->near_m;
     out->far_m = v->far_m;
     out->is_far = v->kind == LMB_ORTHOGRAPHIC;
@@ -67,7 +67,7 @@ void lmb_gouraud_size(gouraud_target *t, int32_t width, int32_t height)
 }
 
 /* Distance of a point inside a plane. */
-static float inside(const gouraud_point *p, int plane)
+static float height_inside(const gouraud_point *p, int plane)
 {
     const float guard = (float)GOURAUD_GUARD * p->w;
     switch (plane) {
@@ -85,7 +85,7 @@ static float inside(const gouraud_point *p, int plane)
 }
 
 /* Intersection of the segment from a, inside, to b, outside, with the plane. */
-static gouraud_point cut(const gouraud_point *a, const gouraud_point *b, float in, float out)
+static gouraud_point cut_gouraud_edge(const gouraud_point *a, const gouraud_point *b, float in, float out)
 {
     const float t = in / (in - out);
     gouraud_point p;
@@ -100,17 +100,17 @@ static gouraud_point cut(const gouraud_point *a, const gouraud_point *b, float i
 }
 
 /* Always cuts from the inside to the outside, so that neighbours cut a shared edge at one place. */
-static int cut_plane(gouraud_point *out, const gouraud_point *p, int count, int plane)
+static int cut_by_gouraud_plane(gouraud_point *out, const gouraud_point *p, int count, int plane)
 {
     int n = 0;
     for (int i = 0; i < count; ++i) {
         const gouraud_point *a = &p[i], *b = &p[i + 1 < count ? i + 1 : 0];
-        const float at = inside(a, plane), bt = inside(b, plane);
+        const float at = height_inside(a, plane), bt = height_inside(b, plane);
         if (at >= 0.0f) {
             out[n++] = *a;
         }
         if ((at >= 0.0f) != (bt >= 0.0f)) {
-            out[n++] = at >= 0.0f ? cut(a, b, at, bt) : cut(b, a, bt, at);
+            out[n++] = at >= 0.0f ? cut_gouraud_edge(a, b, at, bt) : cut_gouraud_edge(b, a, bt, at);
         }
     }
     return n;
@@ -136,13 +136,13 @@ static gouraud_corner place_cut(const gouraud_target *t, gouraud_point p)
 
 void lmb_gouraud_clip(const gouraud_target *t, const gouraud_point p[3], uint32_t any, uint32_t id, int how)
 {
-    gouraud_point a[CORNERS + 1] = {p[0], p[1], p[2]}, b[CORNERS + 1];
+    gouraud_point a[MAX_CLIPPED_CORNERS + 1] = {p[0], p[1], p[2]}, b[MAX_CLIPPED_CORNERS + 1];
     int count = 3;
     for (int plane = 0; plane < 5 && count >= 3; ++plane) {
         if ((any >> plane & 1u) == 0) {
             continue;
         }
-        count = cut_plane(b, a, count, plane);
+        count = cut_by_gouraud_plane(b, a, count, plane);
         for (int i = 0; i < count; ++i) {
             a[i] = b[i];
         }
@@ -167,7 +167,7 @@ typedef struct edge {
     int32_t x, y, past, slope;
 } edge;
 
-static edge edge_of(const gouraud_corner *from, const gouraud_corner *to)
+static edge gouraud_edge_of(const gouraud_corner *from, const gouraud_corner *to)
 {
     edge e;
     const int32_t down = to->y - from->y;
@@ -179,13 +179,16 @@ static edge edge_of(const gouraud_corner *from, const gouraud_corner *to)
 }
 
 /* x in 2^-14 px, for a row with the centre between the edge's ends. */
-static int32_t edge_at(const edge *e, int32_t middle) { return e->x * 1024 + ((e->slope * (middle - e->y)) >> 4); }
+static int32_t gouraud_edge_at(const edge *e, int32_t middle)
+{
+    return e->x * 1024 + ((e->slope * (middle - e->y)) >> 4);
+}
 
 /* Shift across of an edge that moves outwards by a sixteenth of a pixel, down or across. */
 static int32_t edge_growth(const edge *e) { return ((e->slope < 0 ? -e->slope : e->slope) >> 4) + 1024; }
 
 /* The first pixel with a centre not left of x. */
-static int32_t first_pixel(int32_t x) { return (x + 8191) >> 14; }
+static int32_t first_gouraud_pixel(int32_t x) { return (x + 8191) >> 14; }
 
 /* A linear value on the triangle, in 0 .. max. Integers if it is gentle. */
 typedef struct plane {
@@ -260,7 +263,7 @@ enum { FRACTION = 11 };
 
 static uint32_t red_and_blue(int32_t red, int32_t blue) { return ((uint32_t)red << 16) + (uint32_t)blue; }
 
-static uint16_t pixel_of(uint32_t red_blue, uint32_t green)
+static uint16_t pixel_of_channels(uint32_t red_blue, uint32_t green)
 {
     return (uint16_t)((red_blue >> 16 & 0xf800u) | (green & 0x1f800u) >> (FRACTION - 5) |
                       (red_blue & 0xffffu) >> FRACTION);
@@ -327,7 +330,7 @@ static void fill_row(const filler *f, int32_t x, int32_t y, int32_t count)
         if (own > *depth) {
             const uint32_t low = threshold[x & 3];
             *depth = own;
-            *pixel = pixel_of(red_blue + low, (uint32_t)green + (low & 0xffffu));
+            *pixel = pixel_of_channels(red_blue + low, (uint32_t)green + (low & 0xffffu));
         }
         at += d.step, red_blue += red_blue_step, green += g.step;
     }
@@ -345,7 +348,7 @@ static void fill_row_flat(const filler *f, int32_t x, int32_t y, int32_t count)
         if (own > *depth) {
             const uint32_t low = dither[y & 3][x & 3];
             *depth = own;
-            *pixel = pixel_of(f->red_blue + low, f->green + (low & 0xffffu));
+            *pixel = pixel_of_channels(f->red_blue + low, f->green + (low & 0xffffu));
         }
     }
 }
@@ -374,13 +377,14 @@ static void fill_between(const filler *f, const edge *a, const edge *b, int32_t 
     const gouraud_target *t = f->t;
     const int32_t first = maxi((top + 7) >> 4, 0), end = mini((past + 7) >> 4, t->height);
     for (int32_t y = first; y < end; ++y) {
-        const int32_t u = edge_at(a, 16 * y + 8), v = edge_at(b, 16 * y + 8);
+        const int32_t u = gouraud_edge_at(a, 16 * y + 8), v = gouraud_edge_at(b, 16 * y + 8);
         int32_t left = mini(u, v), right = maxi(u, v);
         if (f->how == GOURAUD_GROWN) {
             left -= edge_growth(u < v ? a : b);
             right += edge_growth(u < v ? b : a);
         }
-        const int32_t x = maxi(first_pixel(left), f->first), count = mini(first_pixel(right), f->past) - x;
+        const int32_t x = maxi(first_gouraud_pixel(left), f->first),
+                      count = mini(first_gouraud_pixel(right), f->past) - x;
         if (count <= 0) {
             continue;
         }
@@ -394,7 +398,7 @@ static void fill_between(const filler *f, const edge *a, const edge *b, int32_t 
     }
 }
 
-static void set_planes(filler *f, float per_area)
+static void set_colour_planes(filler *f, float per_area)
 {
     const gouraud_corner *c = f->c;
     set_plane(&f->depth, c, c[0].d, c[1].d, c[2].d, per_area, 1.0f);
@@ -441,8 +445,9 @@ void lmb_gouraud_fill(const gouraud_target *t, const gouraud_corner c[3], uint32
     f.how = how;
     f.first = maxi((mini(c[0].x, mini(c[1].x, c[2].x)) + 6) >> 4, 0);
     f.past = mini((maxi(c[0].x, maxi(c[1].x, c[2].x)) + 8) >> 4, t->width);
-    set_planes(&f, 16.0f / (float)area);
-    const edge whole = edge_of(top, bottom), upper = edge_of(top, middle), lower = edge_of(middle, bottom);
+    set_colour_planes(&f, 16.0f / (float)area);
+    const edge whole = gouraud_edge_of(top, bottom), upper = gouraud_edge_of(top, middle),
+               lower = gouraud_edge_of(middle, bottom);
     fill_between(&f, &whole, &upper, top->y, middle->y);
     fill_between(&f, &whole, &lower, middle->y, bottom->y);
 }
