@@ -18,20 +18,20 @@ enum { PACK_ORDER = 1, PACK_SIZE, PACK_PARTS, PACK_RESERVED }; /* header words *
 #define MAX_VALUE 1e30f       /* limit of a key */
 
 /* A file that is being checked. */
-typedef struct source {
+typedef struct pack_source {
     lmb_pack *pack;
     uint32_t bytes;
     uint64_t indices, keys; /* words that indices and keys may still read: bounds the cost of shared ranges */
-} source;
+} pack_source;
 
 /* Do `size` bytes at offset `at` lie inside the file? */
-static int holds_part(const source *s, uint32_t at, uint64_t size)
+static int holds_part(const pack_source *s, uint32_t at, uint64_t size)
 {
     return at % 4 == 0 && at >= 4 * LMB_PACK_HEADER_WORDS && at <= s->bytes && size <= s->bytes - at;
 }
 
 /* The same, but offset 0 means no data. */
-static int may_hold(const source *s, uint32_t at, uint64_t size) { return at == 0 || holds_part(s, at, size); }
+static int may_hold(const pack_source *s, uint32_t at, uint64_t size) { return at == 0 || holds_part(s, at, size); }
 
 static int is_word_finite(float v) { return v >= -FLT_MAX && v <= FLT_MAX; }
 
@@ -68,7 +68,7 @@ static int are_indices(const lmb_mesh *m)
     return largest < m->vertex_count;
 }
 
-static int is_mesh(source *s, uint32_t i)
+static int is_mesh(pack_source *s, uint32_t i)
 {
     const uint32_t *w = lmb_pack_record(s->pack, LMB_PACK_MESHES, i);
     const uint64_t vertices = w[0], triangles = w[1];
@@ -89,7 +89,7 @@ static int is_mesh(source *s, uint32_t i)
 
 /* --- materials, textures, instances ------------------------------------------------------------------------------- */
 
-static int is_texture(const source *s, uint32_t i)
+static int is_texture(const pack_source *s, uint32_t i)
 {
     const uint32_t *w = lmb_pack_record(s->pack, LMB_PACK_TEXTURES, i);
     const int32_t width = (int32_t)(w[1] & 0xffffu), height = (int32_t)(w[1] >> 16), levels = (int32_t)(w[2] & 255u);
@@ -98,7 +98,7 @@ static int is_texture(const source *s, uint32_t i)
            w[2] >> 24 <= LMB_WRAP_MIRROR && w[3] <= LMB_TRILINEAR;
 }
 
-static int is_material(const source *s, uint32_t i)
+static int is_material(const pack_source *s, uint32_t i)
 {
     lmb_material m;
     lmb_pack_take_material(&m, s->pack, i);
@@ -144,7 +144,7 @@ static int is_packed_camera(const lmb_pack *p, uint32_t i)
 /* --- nodes and tracks --------------------------------------------------------------------------------------------- */
 
 /* Checks that times rise from 0 on and values are finite. */
-static int is_track(source *s, uint32_t i)
+static int is_track(pack_source *s, uint32_t i)
 {
     const uint32_t *w = lmb_pack_record(s->pack, LMB_PACK_TRACKS, i), *data = s->pack->data;
     const uint32_t what = w[0] & 255u, between = w[0] >> 8, keys = w[1];
@@ -235,7 +235,7 @@ static int is_apart(const uint32_t *data, uint32_t i)
     return own[1] >= table_end(data);
 }
 
-static int find_pack_parts(source *s)
+static int find_pack_parts(pack_source *s)
 {
     lmb_pack *p = s->pack;
     for (uint32_t i = 0; i < p->data[PACK_PARTS]; ++i) {
@@ -257,7 +257,7 @@ static int find_pack_parts(source *s)
     return p->count[LMB_PACK_SCENE] == 1;
 }
 
-static int is_packed_scene(source *s)
+static int is_packed_scene(pack_source *s)
 {
     lmb_pack *p = s->pack;
     lmb_scene scene;
@@ -292,7 +292,7 @@ static int is_packed_scene(source *s)
 
 lmb_status lmb_pack_open(lmb_pack *out, const void *data, size_t bytes)
 {
-    source s;
+    pack_source s;
     if (out == NULL || data == NULL) {
         return LMB_ERR_ARG;
     }

@@ -26,7 +26,7 @@ typedef struct neighbourhood {
 } neighbourhood;
 
 /* The points in the cells around a point, in the map's order. */
-typedef struct around {
+typedef struct disc_neighbour {
     const neighbourhood *n;
     lmb_vec3 from; /* position of the point when the search began */
     int32_t x0, x1, x, y, y1, step; /* the current cell, and the last ones */
@@ -34,10 +34,10 @@ typedef struct around {
     lmb_point *q;                   /* current point: the one before `at` */
     lmb_vec3 away;                  /* from `from` to it, */
     float d;                        /* m */
-} around;
+} disc_neighbour;
 
 /* Advances a->q to the next point. Returns 0 after the last one. */
-static int next_around(around *a)
+static int next_around(disc_neighbour *a)
 {
     const uint32_t side = a->n->side;
     while (a->at == a->end && a->y <= a->y1) {
@@ -64,7 +64,7 @@ static int next_around(around *a)
 /* 1 if a->q is a neighbour of p. Neighbours face the same way [V9], or lie in the hemisphere above p's surface and may
  * face any way [V10]. Points of the surface itself lie on the rim of the hemisphere, within rounding. In both cases the
  * distance is within the threshold. */
-static int is_neighbour(const neighbourhood *n, const lmb_point *p, const around *a)
+static int is_neighbour(const neighbourhood *n, const lmb_point *p, const disc_neighbour *a)
 {
     const int meets =
         n->hemisphere ? dot3(p->normal, a->away) >= -MAX_RIM_SINE * a->d : dot3(p->normal, a->q->normal) >= TILE_COS_25;
@@ -77,7 +77,7 @@ static int is_neighbour(const neighbourhood *n, const lmb_point *p, const around
  * A point at depth w m and tangent t on the map that moves by e m, |e| <= radius, changes its tangent by |e_x - t e_w|
  * / (w + e_w), which is at most radius sqrt(1 + t^2) / (w - radius). t is an upper and w a lower bound: both are taken
  * at the corner of a square through the far side of the cell. */
-static void around_point(around *a, const neighbourhood *n, const lmb_point *p, float radius, int32_t max)
+static void around_point(disc_neighbour *a, const neighbourhood *n, const lmb_point *p, float radius, int32_t max)
 {
     const int32_t side = (int32_t)n->side, x = p->cell_x, y = p->cell_y;
     float cells = 0.5f * (float)side * radius / n->view->half_width;
@@ -104,7 +104,7 @@ static void around_point(around *a, const neighbourhood *n, const lmb_point *p, 
 /* [V8]: the mean over the neighbours. If there are none, the size of the quad. */
 static float mean_distance(const neighbourhood *n, const lmb_point *p)
 {
-    around a;
+    disc_neighbour a;
     float sum = 0.0f, count = 0.0f;
     around_point(&a, n, p, n->threshold, (int32_t)n->side);
     while (next_around(&a)) {
@@ -142,7 +142,7 @@ static void join_neighbours(const neighbourhood *n, uint32_t i)
     lmb_point *p = &n->points->data[i];
     const lmb_vec3 normal = p->normal; /* of the disc's first point, as are distances [V12] */
     const float within = n->join * p->distance;
-    around a;
+    disc_neighbour a;
     around_point(&a, n, p, within, MAX_REACH_CELLS);
     while (next_around(&a)) {
         if (a.q > p && a.q->link == a.at - 1 && dot3(normal, a.q->normal) >= TILE_COS_25 && a.d < within) {
@@ -194,7 +194,7 @@ static int32_t lattice_reach(int32_t thin)
 
 /* 1 if a->q is on p's surface: the normals agree, and the chord leaves the plane by no more than on a surface that
  * turns by 25 degrees. */
-static int is_point_on_surface(const lmb_point *p, const around *a)
+static int is_point_on_surface(const lmb_point *p, const disc_neighbour *a)
 {
     return dot3(p->normal, a->q->normal) >= TILE_COS_25 && absf(dot3(p->normal, a->away)) <= SIN_25 * a->d;
 }
@@ -203,7 +203,7 @@ static int is_point_on_surface(const lmb_point *p, const around *a)
 static uint32_t nearest_disc(const neighbourhood *n, uint32_t i)
 {
     const lmb_point *p = &n->points->data[i];
-    around a;
+    disc_neighbour a;
     uint32_t nearest = i;
     float min = 0.0f;
     around_point(&a, n, p, 0.0f, MAX_REACH_CELLS);

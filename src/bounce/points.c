@@ -129,16 +129,16 @@ static int32_t block_of(const lmb_grouping *grouping)
 
 static int is_block(int32_t n) { return n == 1 || n == 2 || n == 4 || n == 8; }
 
-typedef struct collector {
+typedef struct point_collector {
     lmb_points *points;
     const lmb_scene *scene;
     const lmb_light *light;
     const lmb_shadow_map *map;
     int32_t face, block;
-} collector;
+} point_collector;
 
 /* The texel's owner, or a dummy. */
-static uint32_t *owner_of(const collector *c, uint32_t *nowhere, int32_t x, int32_t y)
+static uint32_t *owner_of(const point_collector *c, uint32_t *nowhere, int32_t x, int32_t y)
 {
     const uint32_t size = (uint32_t)c->map->size;
     lmb_points *p = c->points;
@@ -146,7 +146,7 @@ static uint32_t *owner_of(const collector *c, uint32_t *nowhere, int32_t x, int3
 }
 
 /* Collects the block with (bx, by) of the tile as first texel. */
-static lmb_status collect_block(const collector *c, const lmb_tile *tile, int32_t bx, int32_t by)
+static lmb_status collect_block(const point_collector *c, const lmb_tile *tile, int32_t bx, int32_t by)
 {
     const lmb_view *v = &c->map->view[c->face];
     element e[MAX_BLOCK_SURFACES];
@@ -188,7 +188,7 @@ static lmb_status collect_block(const collector *c, const lmb_tile *tile, int32_
 }
 
 /* A row of blocks through all tiles of the row, so that points and cells come in row order. */
-static lmb_status collect_block_row(const collector *c, const lmb_kernels *kernels, lmb_tile *tile, int32_t y)
+static lmb_status collect_block_row(const point_collector *c, const lmb_kernels *kernels, lmb_tile *tile, int32_t y)
 {
     int32_t side = c->map->size / c->block;
     for (int32_t x = 0; x < c->map->size; x += c->block) {
@@ -212,7 +212,7 @@ lmb_status lmb_points_collect(lmb_points *points, const lmb_kernels *kernels, lm
                               const lmb_scene *scene, const lmb_light *light, const lmb_shadow_map *map, int32_t face,
                               int32_t tile_y0, int32_t tile_y1, const lmb_grouping *grouping)
 {
-    collector c;
+    point_collector c;
     int32_t block = block_of(grouping);
     if (points == NULL || points->data == NULL || kernels == NULL || scratch == NULL || scene == NULL ||
         light == NULL || map == NULL || (uint32_t)face >= (uint32_t)map->faces || tile_y0 < 0 ||

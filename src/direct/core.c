@@ -24,25 +24,25 @@
 #define FINER   0.0125f   /* of a face's width: a place with fewer than 13 of 1,024 texels gets a separate face */
 enum { MAX_CLUMP_ROUNDS = 8, LIMITS = 5, DEEPER = 3, MAX_SAMPLE_TRIANGLES = 8192, RATIO = 16, MIN_CLUMP_TRIANGLES = 2 };
 
-typedef struct box {
+typedef struct core_box {
     lmb_vec3 low, high;
-} box;
+} core_box;
 
-static float size_of_box(const box *b) { return largest3(sub3(b->high, b->low)); }
+static float size_of_box(const core_box *b) { return largest3(sub3(b->high, b->low)); }
 
-static void join_core_box(box *inout, const box *b)
+static void join_core_box(core_box *inout, const core_box *b)
 {
     inout->low = min3(inout->low, b->low);
     inout->high = max3(inout->high, b->high);
 }
 
-static int overlap(const box *a, const box *b)
+static int overlap(const core_box *a, const core_box *b)
 {
     return a->low.x <= b->high.x && a->low.y <= b->high.y && a->low.z <= b->high.z && b->low.x <= a->high.x &&
            b->low.y <= a->high.y && b->low.z <= a->high.z;
 }
 
-static int take_triangle(box *b, float *area, const lmb_scene *scene, uint32_t id)
+static int take_triangle(core_box *b, float *area, const lmb_scene *scene, uint32_t id)
 {
     lmb_triangle t;
     lmb_vec3 normal;
@@ -56,13 +56,13 @@ static int take_triangle(box *b, float *area, const lmb_scene *scene, uint32_t i
 
 /* Triangles below a size, in a box, near a centre. */
 typedef struct clump {
-    box in;
+    core_box in;
     float under;
     double at[3], reach; /* m */
     uint32_t count;
 } clump;
 
-static double distance_from(const clump *c, const box *b)
+static double distance_from(const clump *c, const core_box *b)
 {
     const double x = 0.5 * ((double)b->low.x + (double)b->high.x) - c->at[0],
                  y = 0.5 * ((double)b->low.y + (double)b->high.y) - c->at[1],
@@ -71,19 +71,19 @@ static double distance_from(const clump *c, const box *b)
     return (double)sqrtf(d);
 }
 
-static int belongs(const clump *c, const box *b)
+static int belongs(const clump *c, const core_box *b)
 {
     return size_of_box(b) < c->under && overlap(b, &c->in) && distance_from(c, b) <= c->reach;
 }
 
 /* Sums over the members: area, and area times centre; or, in sum[1], area times distance. */
-static uint32_t sums(double sum[4], const clump *c, const lmb_scene *scene, uint32_t step, int distances)
+static uint32_t clump_sums(double sum[4], const clump *c, const lmb_scene *scene, uint32_t step, int distances)
 {
     const uint32_t all = lmb_scene_triangles(scene);
     uint32_t count = 0;
     sum[0] = sum[1] = sum[2] = sum[3] = 0.0;
     for (uint32_t id = 1; id <= all && id >= 1; id += step) {
-        box b;
+        core_box b;
         float area;
         if (take_triangle(&b, &area, scene, id) && belongs(c, &b)) {
             const double w = 0.5 * (double)area;
@@ -110,7 +110,7 @@ static int find_clump(clump *c, const lmb_scene *scene, uint32_t step)
     c->count = 0;
     for (int round = 0; round < MAX_CLUMP_ROUNDS; ++round) {
         const uint32_t before = c->count;
-        c->count = sums(sum, c, scene, step, 0);
+        c->count = clump_sums(sum, c, scene, step, 0);
         if (c->count < MIN_CLUMP_TRIANGLES || !(sum[0] > 0.0)) {
             return 0;
         }
@@ -120,7 +120,7 @@ static int find_clump(clump *c, const lmb_scene *scene, uint32_t step)
         for (int i = 0; i < 3; ++i) {
             c->at[i] = sum[1 + i] / sum[0];
         }
-        sums(sum, c, scene, step, 1);
+        clump_sums(sum, c, scene, step, 1);
         c->reach = MAX_MEAN_DISTANCES * sum[1] / sum[0];
     }
     return 1;
@@ -128,10 +128,10 @@ static int find_clump(clump *c, const lmb_scene *scene, uint32_t step)
 
 /* The clump's own box, then joined with geometry that touches it. in, rest: area in c->in that is inside `out`, and
  * outside. */
-static void box_of_clump(box *out, float *in, float *rest, const clump *c, const lmb_scene *scene)
+static void box_of_clump(core_box *out, float *in, float *rest, const clump *c, const lmb_scene *scene)
 {
     const uint32_t all = lmb_scene_triangles(scene);
-    box own = {{3e38f, 3e38f, 3e38f}, {-3e38f, -3e38f, -3e38f}}, b;
+    core_box own = {{3e38f, 3e38f, 3e38f}, {-3e38f, -3e38f, -3e38f}}, b;
     float area;
     double inside = 0.0, outside = 0.0;
     for (uint32_t id = 1; id <= all; ++id) {
@@ -163,10 +163,10 @@ static uint32_t step_of_samples(const lmb_scene *scene)
 }
 
 /* The box that contains nearly everything: at most half the scene's size, or the scene itself. */
-static void find_wide(box *inout, const lmb_scene *scene)
+static void find_wide(core_box *inout, const lmb_scene *scene)
 {
     clump c;
-    box b;
+    core_box b;
     float in, rest;
     c.in = *inout;
     c.under = 0.5f * size_of_box(inout);
@@ -177,13 +177,13 @@ static void find_wide(box *inout, const lmb_scene *scene)
 }
 
 /* A place in a box, no wider than an eightieth of the box. Returns 0 if there is none. */
-static int find_finer(box *inout, const lmb_scene *scene)
+static int find_finer(core_box *inout, const lmb_scene *scene)
 {
     clump c;
     float limit = 0.5f * size_of_box(inout), in, rest;
     c.in = *inout;
     for (int i = 0; i < LIMITS; ++i, limit *= 0.25f) {
-        box b;
+        core_box b;
         c.under = limit;
         if (!find_clump(&c, scene, step_of_samples(scene))) {
             return 0;
@@ -209,14 +209,14 @@ static int steps_between(float small, float large)
     return n;
 }
 
-static int is_box_between(const box *b, lmb_vec3 low, lmb_vec3 high)
+static int is_box_between(const core_box *b, lmb_vec3 low, lmb_vec3 high)
 {
     return memcmp(&b->low, &low, sizeof low) == 0 && memcmp(&b->high, &high, sizeof high) == 0;
 }
 
 void lmb_scene_core(lmb_core *out, const lmb_scene *scene)
 {
-    box wide, core;
+    core_box wide, core;
     if (out == NULL) {
         return;
     }

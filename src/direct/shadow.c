@@ -20,13 +20,13 @@
 #include "part.h"
 
 /* Position of the receiver in a face. */
-typedef struct place {
+typedef struct lit_place {
     const lmb_view *view;
     int32_t face;
     float x, y; /* texels */
     float w;    /* m along the face's axis */
     lmb_vec3 towards; /* from the receiver to the light; directional: unit length */
-} place;
+} lit_place;
 
 static int32_t choose_shadow_face(const lmb_shadow_map *map, lmb_vec3 d)
 {
@@ -41,7 +41,7 @@ static int32_t choose_shadow_face(const lmb_shadow_map *map, lmb_vec3 d)
 }
 
 /* Returns 0 if the receiver is outside the map: nothing can shadow it there (spots: it is outside the cone). */
-static int find_place(place *out, const lmb_shadow_map *map, const lmb_light *light, lmb_vec3 p)
+static int find_place(lit_place *out, const lmb_shadow_map *map, const lmb_light *light, lmb_vec3 p)
 {
     const int directional = light_kind_is(light->kind, LIGHT_FAR);
     int32_t f =
@@ -92,7 +92,7 @@ enum { TEXEL_BESIDE = 0, TEXEL_OVER = 1, TEXEL_SHADOWS = 2, TEXEL_THROUGH = 4 };
 
 /* Tests whether a triangle lies over a place in the map, with the place behind the triangle's plane. n: normal of the
  * triangle, of any length. noise: m, of the place. */
-static int ask_from(lmb_vec3 *n, const lmb_shadow_query *query, const lmb_triangle *t, lmb_vec3 p, const place *at,
+static int ask_from(lmb_vec3 *n, const lmb_shadow_query *query, const lmb_triangle *t, lmb_vec3 p, const lit_place *at,
                     float noise)
 {
     lmb_vec3 a = sub3(t->corner[0], p), b = sub3(t->corner[1], p), c = sub3(t->corner[2], p);
@@ -123,7 +123,8 @@ static int ask_from(lmb_vec3 *n, const lmb_shadow_query *query, const lmb_triang
 /* For a receiver on the line of two triangles, as on a floor at the foot of a wall, only rounding would decide which
  * side of the wall it is on. A wall lit from behind would have bright specks along the foot. The eye sees the receiver,
  * so a place a little nearer to the eye, by at most 64 times the noise, is on the receiver's side and is tested too. */
-static int ask_triangle(const lmb_shadow_query *query, uint32_t id, const lmb_receiver *r, const place *at, float noise)
+static int ask_triangle(const lmb_shadow_query *query, uint32_t id, const lmb_receiver *r, const lit_place *at,
+                        float noise)
 {
     lmb_triangle t;
     lmb_vec3 n;
@@ -146,7 +147,7 @@ static int ask_triangle(const lmb_shadow_query *query, uint32_t id, const lmb_re
 
 /* Compares the nearest texel's surface with the receiver's plane at the centre of the texel. noise: m, of the
  * receiver's position. */
-static int lit_by_depth(const lmb_shadow_query *query, const place *at, const lmb_receiver *r, float noise)
+static int lit_by_depth(const lmb_shadow_query *query, const lit_place *at, const lmb_receiver *r, float noise)
 {
     const int32_t last = query->map->size - 1, x = mini((int32_t)at->x, last), y = mini((int32_t)at->y, last);
     const lmb_view *v = at->view;
@@ -181,7 +182,7 @@ void lmb_shadow_ask(lmb_shadow_query *out, const lmb_shadow_map *map, const lmb_
 }
 
 /* The ids of the four texels around the place. Returns 1 if all are the receiver's own. */
-static int four_ids(uint32_t seen[4], lmb_shadow_query *query, const place *at, uint32_t own)
+static int four_ids(uint32_t seen[4], lmb_shadow_query *query, const lit_place *at, uint32_t own)
 {
     const float left = at->x - 0.5f, top = at->y - 0.5f; /* above -1 */
     const int32_t x0 = (int32_t)left - (left < 0.0f), y0 = (int32_t)top - (top < 0.0f), last = query->map->size - 1;
@@ -200,7 +201,7 @@ static int four_ids(uint32_t seen[4], lmb_shadow_query *query, const place *at, 
 
 int lmb_is_lit(lmb_shadow_query *query, const lmb_receiver *r)
 {
-    place at;
+    lit_place at;
     int over = 0;
     uint32_t seen[4];
     if (!find_place(&at, query->map, query->light, r->position) || four_ids(seen, query, &at, r->id)) {

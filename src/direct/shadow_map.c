@@ -57,15 +57,15 @@ static void set_view_axes(lmb_view *v, lmb_vec3 forward)
     v->up = cross3(v->back, v->right);
 }
 
-typedef struct box {
+typedef struct light_box {
     lmb_vec3 low, high;
-} box;
+} light_box;
 
 static float diagonal_of(lmb_vec3 low, lmb_vec3 high) { return maxf(length3(sub3(high, low)), 1e-24f); }
 
-static box box_mix(lmb_vec3 low, lmb_vec3 high, lmb_vec3 wide_low, lmb_vec3 wide_high, float share)
+static light_box box_mix(lmb_vec3 low, lmb_vec3 high, lmb_vec3 wide_low, lmb_vec3 wide_high, float share)
 {
-    box b;
+    light_box b;
     b.low = add3(low, mul3(sub3(wide_low, low), share));
     b.high = add3(high, mul3(sub3(wide_high, high), share));
     return b;
@@ -73,9 +73,9 @@ static box box_mix(lmb_vec3 low, lmb_vec3 high, lmb_vec3 wide_low, lmb_vec3 wide
 
 /* Contents of face f of a sun's map: the core; boxes of a sixteenth of a sixteenth .. of the wide one's size; the wide
  * one; the whole scene. */
-static box box_of_face(const lmb_scene *scene, int32_t f, int32_t faces)
+static light_box box_of_face(const lmb_scene *scene, int32_t f, int32_t faces)
 {
-    const box all = {scene->bounds_min, scene->bounds_max};
+    const light_box all = {scene->bounds_min, scene->bounds_max};
     if (!LMB_TREES || f == faces - 1) {
         return all;
     }
@@ -91,7 +91,7 @@ static box box_of_face(const lmb_scene *scene, int32_t f, int32_t faces)
                    f == 0 || !(wide > core) ? 0.0f : clampf((size - core) / (wide - core), 0.0f, 1.0f));
 }
 
-static lmb_vec3 half_size_of_box(const box *b) { return mul3(sub3(b->high, b->low), 0.5f); }
+static lmb_vec3 half_size_of_box(const light_box *b) { return mul3(sub3(b->high, b->low), 0.5f); }
 
 /* Half the extent along an axis of a box of half extents `half`. */
 static float reach_along(lmb_vec3 axis, lmb_vec3 half)
@@ -100,7 +100,7 @@ static float reach_along(lmb_vec3 axis, lmb_vec3 half)
 }
 
 /* An orthographic view along the light's axes that contains the whole box. */
-static void fit_directional(lmb_view *v, const lmb_light *light, const box *b)
+static void fit_directional(lmb_view *v, const lmb_light *light, const light_box *b)
 {
     const lmb_vec3 half = half_size_of_box(b);
     const float margin = 1e-3f * diagonal_of(b->low, b->high);
@@ -117,9 +117,9 @@ static void fit_directional(lmb_view *v, const lmb_light *light, const box *b)
 #if LMB_TREES
 /* The same for one of several boxes. The view is as deep as the scene, to contain casters above and receivers below.
  * The eye is at the box's centre, which keeps coordinates small. */
-static void fit_part(lmb_view *v, const lmb_light *light, const box *b, const lmb_scene *scene)
+static void fit_part(lmb_view *v, const lmb_light *light, const light_box *b, const lmb_scene *scene)
 {
-    const box all = {scene->bounds_min, scene->bounds_max};
+    const light_box all = {scene->bounds_min, scene->bounds_max};
     fit_directional(v, light, b);
     v->eye = mul3(add3(b->low, b->high), 0.5f);
     const float up = dot3(v->back, sub3(mul3(add3(all.low, all.high), 0.5f), v->eye));
@@ -250,7 +250,7 @@ static void fit_views(lmb_shadow_map *map, const lmb_light *light, const lmb_sce
         v->frame_width = v->frame_height = map->size;
         int meets = 1;
         if (light_kind_is(light->kind, LIGHT_FAR)) {
-            const box b = box_of_face(scene, f, map->faces);
+            const light_box b = box_of_face(scene, f, map->faces);
             fit_directional(v, light, &b);
 #if LMB_TREES
             if (map->faces > 1) {

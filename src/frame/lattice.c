@@ -194,11 +194,11 @@ typedef struct patch_corner {
     float light[3], slope[2][3]; /* W/m2; and W/m2 per pixel, along columns and rows */
 } patch_corner;
 
-typedef struct cell {
+typedef struct lattice_cell {
     int32_t x[2], y[2];
     patch_corner corner[4];
     float width, height; /* as divisors: at least 1 */
-} cell;
+} lattice_cell;
 
 /* Position of the sample before or after a pixel in a row or column; -1 if there is none. */
 static int32_t step_before(int32_t x, int32_t step) { return x > 0 ? (x - 1) / step * step : -1; }
@@ -238,7 +238,7 @@ static void set_corner_slope(patch_corner *c, const lmb_lattice *l, int32_t x, i
 }
 
 /* Sets the positions of the cell's corners, which may be gathered later. */
-static void place_cell(cell *out, const lmb_lattice *l, int32_t x, int32_t y, int32_t step)
+static void place_cell(lattice_cell *out, const lmb_lattice *l, int32_t x, int32_t y, int32_t step)
 {
     out->x[0] = x;
     out->y[0] = y;
@@ -251,7 +251,7 @@ static void place_cell(cell *out, const lmb_lattice *l, int32_t x, int32_t y, in
     }
 }
 
-static void set_lattice_cell(cell *out, const lmb_lattice *l, int32_t x, int32_t y, int32_t step)
+static void set_lattice_cell(lattice_cell *out, const lmb_lattice *l, int32_t x, int32_t y, int32_t step)
 {
     place_cell(out, l, x, y, step);
     for (int i = 0; i < 4; ++i) {
@@ -268,7 +268,7 @@ static void set_lattice_cell(cell *out, const lmb_lattice *l, int32_t x, int32_t
     }
 }
 
-static void set_agreements(float out[4], const cell *c, const lmb_lattice_tile *tile, int k)
+static void set_agreements(float out[4], const lattice_cell *c, const lmb_lattice_tile *tile, int k)
 {
     for (int i = 0; i < 4; ++i) {
         const pixel at = c->corner[i].at;
@@ -278,7 +278,7 @@ static void set_agreements(float out[4], const cell *c, const lmb_lattice_tile *
 
 /* Light at (x, y) from the corners that agree: a bilinear mean, with each corner extrapolated by half of the slopes,
  * which is exact for quadratics. If a corner is missing, full slopes are used, which is exact for linear light. */
-static void mix_corners(float out[3], const cell *c, const float agree[4], int32_t x, int32_t y)
+static void mix_corners(float out[3], const lattice_cell *c, const float agree[4], int32_t x, int32_t y)
 {
     const float u = (float)(x - c->x[0]) / c->width, v = (float)(y - c->y[0]) / c->height;
     const int all = agree[0] > 0.0f && agree[1] > 0.0f && agree[2] > 0.0f && agree[3] > 0.0f;
@@ -305,7 +305,7 @@ static void mix_corners(float out[3], const cell *c, const float agree[4], int32
 
 /* --- dividing ----------------------------------------------------------------------------------------------------- */
 
-static float cell_surplus(const lmb_lattice *l, const cell *c, int32_t x, int32_t y)
+static float cell_surplus(const lmb_lattice *l, const lattice_cell *c, int32_t x, int32_t y)
 {
     const pixel p = lattice_pixel(l, x, y);
     float agree[4], by[3] = {0, 0, 0}, sum = 0.0f;
@@ -344,7 +344,7 @@ static void divide_cell_parts(const lmb_lattice *l, int32_t level, int32_t x, in
 {
     const int32_t step = step_of_level(level);
     float surplus[9] = {0, 0, 0, 0, 0, 0, 0, 0, 0};
-    cell c;
+    lattice_cell c;
     set_lattice_cell(&c, l, x, y, 2 * step);
     for (int32_t i = 0; i < 9; ++i) {
         const int32_t at = mini(x + i % 3 * step, l->width - 1), down = mini(y + i / 3 * step, l->height - 1);
@@ -402,7 +402,7 @@ static int surface_goes_on(const lmb_lattice_tile *tile, int was, int k)
 }
 
 /* Do the corners that agree explain a pixel? Not if it lies far beyond the last of them. */
-static int is_explained(const cell *c, const float agree[4], int32_t x, int32_t y)
+static int is_explained(const lattice_cell *c, const float agree[4], int32_t x, int32_t y)
 {
     const float u = (float)(x - c->x[0]) / c->width, v = (float)(y - c->y[0]) / c->height;
     float sum = 0.0f;
@@ -439,7 +439,7 @@ static void put_light_row(float *to, const float light[LMB_TILE], uint64_t own)
 
 /* Same result as `mix` if all corners have full weight, for pixels of a tile: row by row, from the left side of the
  * cell to the right. Equal corners give exactly their light. */
-static void mix_whole(lmb_lattice_tile *tile, const cell *c, int32_t x, int32_t y, uint64_t pixels)
+static void mix_whole(lmb_lattice_tile *tile, const lattice_cell *c, int32_t x, int32_t y, uint64_t pixels)
 {
     const patch_corner *at = c->corner;
     const float half_width = 0.5f * (float)(c->x[1] - c->x[0]);
@@ -468,7 +468,7 @@ static void mix_whole(lmb_lattice_tile *tile, const cell *c, int32_t x, int32_t 
 }
 
 /* Lights some pixels of a tile that lie in the cell; pixels that no corner explains are added to `wanted`. */
-static void fill_pixels(lmb_lattice_tile *tile, const cell *c, int32_t x, int32_t y, uint64_t pixels)
+static void fill_pixels(lmb_lattice_tile *tile, const lattice_cell *c, int32_t x, int32_t y, uint64_t pixels)
 {
     float agree[4] = {0, 0, 0, 0};
     int was = -1;
@@ -508,7 +508,7 @@ static uint64_t pixels_within(const int32_t x[2], const int32_t y[2])
 
 static void fill_lattice_cell(const lmb_lattice *l, int32_t left, int32_t top, int32_t step)
 {
-    cell c;
+    lattice_cell c;
     int made = 0;
     for (int32_t y = top - top % LMB_TILE; y < mini(top + step, l->height); y += LMB_TILE) {
         for (int32_t x = left - left % LMB_TILE; x < mini(left + step, l->width); x += LMB_TILE) {
@@ -580,12 +580,12 @@ static window window_of(const lmb_lattice *l, int32_t i)
 }
 
 /* Samples near a pixel and on the same surface. */
-typedef struct around {
+typedef struct lattice_around {
     float sum, light[3]; /* sums of weights and of weighted light */
     float low, high;     /* R + G + B */
-} around;
+} lattice_around;
 
-static void add_lattice_around(around *out, const lmb_lattice_tile *tile, int k, float weight)
+static void add_lattice_around(lattice_around *out, const lmb_lattice_tile *tile, int k, float weight)
 {
     float all = 0.0f;
     for (int c = 0; c < 3; ++c) {
@@ -609,12 +609,13 @@ static uint64_t samples_of(const lmb_lattice *l, const window *w, int32_t tx, in
 }
 
 /* Collects all samples within `reach` px of pixel (x, y) each way; with `wanted` also those to be gathered. */
-static around around_of_pixel(const lmb_lattice *l, const window *w, int32_t x, int32_t y, int32_t reach, int wanted)
+static lattice_around around_of_pixel(const lmb_lattice *l, const window *w, int32_t x, int32_t y, int32_t reach,
+                                      int wanted)
 {
     const pixel own = lattice_pixel(l, x, y);
     const int32_t left = maxi(x - reach, 0), right = mini(x + reach, l->width - 1), top = maxi(y - reach, 0),
                   bottom = mini(y + reach, l->height - 1);
-    around out;
+    lattice_around out;
     memset(&out, 0, sizeof out);
     for (int32_t ty = top / LMB_TILE; ty <= bottom / LMB_TILE; ++ty) {
         for (int32_t tx = left / LMB_TILE; tx <= right / LMB_TILE; ++tx) {
@@ -642,7 +643,7 @@ static around around_of_pixel(const lmb_lattice *l, const window *w, int32_t x, 
 /* Does the light vary strongly around a pixel? */
 static int is_uneven(const lmb_lattice *l, const window *w, int32_t x, int32_t y)
 {
-    const around a = around_of_pixel(l, w, x, y, MIN_DIFFERING_PX, 0);
+    const lattice_around a = around_of_pixel(l, w, x, y, MIN_DIFFERING_PX, 0);
     return a.high - a.low > MIN_UNEVEN_SHARE * l->mean;
 }
 
@@ -691,7 +692,7 @@ void lmb_lattice_late(const lmb_lattice *l, int32_t i)
             lmb_lattice_tile *tile = lattice_tile(l, tx, ty);
             for (uint64_t bits = tile->late; bits != 0; bits &= bits - 1) {
                 const int k = lowest_bit_64(bits);
-                const around a =
+                const lattice_around a =
                     around_of_pixel(l, &w, tx * LMB_TILE + k % LMB_TILE, ty * LMB_TILE + k / LMB_TILE, MAX_REACH_PX, 0);
                 const float share = a.sum > 0.0f ? 1.0f / a.sum : 0.0f;
                 const float light[3] = {a.light[0] * share, a.light[1] * share, a.light[2] * share};

@@ -11,12 +11,12 @@
 enum { MIN_POINTS = 6, MOST = 6 /* px to each side */, SPAN = 16 /* px */ };
 
 /* Sums of plane_fit for each pixel, with weights of 1 or 0. */
-typedef struct sums {
+typedef struct depth_sums {
     float w[SPAN], x[SPAN], y[SPAN], xx[SPAN], xy[SPAN], yy[SPAN], q[SPAN], xq[SPAN], yq[SPAN];
-} sums;
+} depth_sums;
 
 /* The square neighbourhoods of adjacent pixels. Arrays in one struct cannot overlap, so compilers can vectorize. */
-typedef struct around {
+typedef struct normal_around {
     const lmb_cloud *cloud;
     int32_t x, y, reach, step; /* px */
     float q[SPAN], sigma[SPAN], tilt[SPAN]; /* tilt: change of the inverse per pixel on the steepest surface */
@@ -24,11 +24,11 @@ typedef struct around {
     float slope[3][SPAN];
     float near[SPAN + 2 * MOST]; /* inverses of a row; 0 beyond the picture */
     float is_in[SPAN];           /* 1 if a point of the row counts, else 0 */
-    sums s;
-} around;
+    depth_sums s;
+} normal_around;
 
 /* Replaces values that are not finite by 0: even with weight 0 they would spoil the sums. */
-static void read_around_row(around *a, int32_t y)
+static void read_around_row(normal_around *a, int32_t y)
 {
     const int32_t width = a->cloud->camera.width, from = maxi(a->x - MOST, 0), to = mini(a->x + SPAN + MOST, width);
     memset(a->near, 0, sizeof a->near);
@@ -40,7 +40,7 @@ static void read_around_row(around *a, int32_t y)
 }
 
 /* Adds the point i columns to the right of each pixel, if it counts. */
-static void add_points(around *a, int32_t i, float right, float ray_y)
+static void add_points(normal_around *a, int32_t i, float right, float ray_y)
 {
     for (int k = 0; k < SPAN; ++k) {
         const float w = a->is_in[k], x = w * ((a->ray_x[k] + right) - a->ray_x[k]), y = w * (ray_y - a->ray_y),
@@ -58,7 +58,7 @@ static void add_points(around *a, int32_t i, float right, float ray_y)
 }
 
 /* Selects points within reach of a surface `far` pixels away. */
-static void can_reach(around *a, int32_t i, float far)
+static void can_reach(normal_around *a, int32_t i, float far)
 {
     for (int k = 0; k < SPAN; ++k) {
         const float q = a->near[MOST + i + k];
@@ -67,7 +67,7 @@ static void can_reach(around *a, int32_t i, float far)
 }
 
 /* Selects points on the plane of the first fit. */
-static void lies_on(around *a, int32_t i, float right, float ray_y)
+static void lies_on(normal_around *a, int32_t i, float right, float ray_y)
 {
     for (int k = 0; k < SPAN; ++k) {
         const float q = a->near[MOST + i + k],
@@ -76,7 +76,7 @@ static void lies_on(around *a, int32_t i, float right, float ray_y)
     }
 }
 
-static void add_around_row(around *a, int32_t j, int is_again)
+static void add_around_row(normal_around *a, int32_t j, int is_again)
 {
     const float ray_y = a->ray_y - (float)j / a->cloud->camera.fy;
     for (int32_t i = -a->reach; i <= a->reach; i += a->step) {
@@ -90,7 +90,7 @@ static void add_around_row(around *a, int32_t j, int is_again)
     }
 }
 
-static void add_all(around *a, int is_again)
+static void add_all(normal_around *a, int is_again)
 {
     memset(&a->s, 0, sizeof a->s);
     for (int32_t j = -a->reach; j <= a->reach; j += a->step) {
@@ -101,15 +101,15 @@ static void add_all(around *a, int is_again)
     }
 }
 
-static int solve_slope(float slope[3], const around *a, int k)
+static int solve_slope(float slope[3], const normal_around *a, int k)
 {
-    const sums *s = &a->s;
+    const depth_sums *s = &a->s;
     const plane_fit f = {a->ray_x[k], a->ray_y, a->q[k], s->w[k], s->x[k], s->y[k], s->xx[k], s->xy[k], s->yy[k],
                          s->q[k], s->xq[k], s->yq[k]};
     return s->w[k] >= (float)MIN_POINTS && lmb_plane_fit_solve(slope, &f);
 }
 
-static void begin_around(around *a, const lmb_cloud *cloud, int32_t x, int32_t y)
+static void begin_around(normal_around *a, const lmb_cloud *cloud, int32_t x, int32_t y)
 {
     const lmb_pinhole *c = &cloud->camera;
     const int32_t wide = mini(maxi((int32_t)(c->fx / 90.0f), 2), MOST);
@@ -132,7 +132,7 @@ static void begin_around(around *a, const lmb_cloud *cloud, int32_t x, int32_t y
 /* Normals of adjacent pixels: from a first fit, then from a second without the outliers of the first. */
 static void find_span(lmb_vec3 *out, const lmb_cloud *cloud, int32_t x, int32_t y, int32_t count)
 {
-    around a;
+    normal_around a;
     float first[SPAN][3], again[3], distance;
     int32_t is_found[SPAN];
     begin_around(&a, cloud, x, y);

@@ -121,18 +121,18 @@ static void mean_slope(float slope[3], const mean *m, const lmb_pinhole *c, cell
 /* --- the mesh ----------------------------------------------------------------------------------------------------- */
 
 /* Inputs of the mesh. */
-typedef struct maker {
+typedef struct mesh_maker {
     const lmb_cloud *cloud;
     const lmb_planes *planes;
     const lmb_axes *axes;
-} maker;
+} mesh_maker;
 
 /* Range of inverse distances of a label's pixels. */
-typedef struct span {
+typedef struct mesh_span {
     float low, high;
-} span;
+} mesh_span;
 
-static void add_span(span *s, const maker *m, cell_box b, uint8_t label)
+static void add_span(mesh_span *s, const mesh_maker *m, cell_box b, uint8_t label)
 {
     for (int32_t y = b.y0; y < b.y1; ++y) {
         for (int32_t x = b.x0; x < b.x1; ++x) {
@@ -148,20 +148,20 @@ static void add_span(span *s, const maker *m, cell_box b, uint8_t label)
 
 /* At a grazing angle a plane's depth changes fast between its last pixel and the corner of a cell. The corner is
  * clamped to the pixels of all cells that meet there. All these cells use the same pixels, so no gap opens. */
-static float near_plane_pixels(float inverse, const maker *m, int32_t step, int32_t x, int32_t y, uint8_t label)
+static float near_plane_pixels(float inverse, const mesh_maker *m, int32_t step, int32_t x, int32_t y, uint8_t label)
 {
     const lmb_pinhole *c = &m->cloud->camera;
     const int32_t i = cells_of_side(x, step), j = cells_of_side(y, step);
     const cell_box around = {maxi(i - 1, 0) * step, maxi(j - 1, 0) * step, mini((i + 1) * step, c->width),
                              mini((j + 1) * step, c->height)};
-    span s = {1e30f, 0.0f};
+    mesh_span s = {1e30f, 0.0f};
     add_span(&s, m, around, label);
     return s.high > 0.0f ? clampf(inverse, (1.0f - MAX_DEPTH_SHARE) * s.low, (1.0f + MAX_DEPTH_SHARE) * s.high)
                          : inverse;
 }
 
 /* Writes a cell with corners at pixel corners, counter-clockwise as seen by the camera. */
-static void put_mesh_cell(lmb_real_mesh *out, const maker *m, const float slope[3], cell_box b, uint8_t label)
+static void put_mesh_cell(lmb_real_mesh *out, const mesh_maker *m, const float slope[3], cell_box b, uint8_t label)
 {
     const int32_t xs[4] = {b.x0, b.x0, b.x1, b.x1}, ys[4] = {b.y0, b.y1, b.y1, b.y0};
     float *at = out->positions + (size_t)CELL_FLOATS * (size_t)out->count;
@@ -186,7 +186,7 @@ static void put_mesh_cell(lmb_real_mesh *out, const maker *m, const float slope[
     ++out->count;
 }
 
-static void build_cell(lmb_real_mesh *out, const maker *from, int32_t i, int32_t j)
+static void build_cell(lmb_real_mesh *out, const mesh_maker *from, int32_t i, int32_t j)
 {
     const lmb_pinhole *c = &from->cloud->camera;
     const cell_box b = box_of_cell(c, out->step, i, j);
@@ -209,7 +209,7 @@ static void build_cell(lmb_real_mesh *out, const maker *from, int32_t i, int32_t
 lmb_status lmb_real_mesh_build(lmb_real_mesh *out, const lmb_cloud *cloud, const lmb_planes *planes, int32_t step,
                                const lmb_axes *axes, void *memory, size_t bytes)
 {
-    const maker from = {cloud, planes, axes};
+    const mesh_maker from = {cloud, planes, axes};
     if (out == NULL || axes == NULL || cloud == NULL || planes == NULL || cloud->inverse == NULL ||
         planes->label == NULL || step < 1 || step > 64) {
         return LMB_ERR_ARG;

@@ -107,7 +107,7 @@ static void trace_hole(lmb_planes *p, const lmb_cloud *cloud, gap *hole)
 }
 
 /* The plane around a hole, or 0. It must own nine in ten of the surrounding pixels, around specks more than half. */
-static uint8_t around(const gap *hole)
+static uint8_t pixels_around(const gap *hole)
 {
     int32_t best = 0, all = hole->beside[0];
     for (int32_t i = 1; i <= LMB_MAX_PLANES; ++i) {
@@ -128,7 +128,7 @@ static void fill_holes(lmb_planes *p, const lmb_cloud *cloud)
             p->queue[0] = at;
             p->label[at] = LABEL_HOLE;
             trace_hole(p, cloud, &hole);
-            const uint8_t label = around(&hole);
+            const uint8_t label = pixels_around(&hole);
             for (int32_t i = 0; label != 0 && i < hole.count; ++i) {
                 p->label[p->queue[i]] = label;
             }

@@ -80,12 +80,12 @@ int lmb_planes_anchor(lmb_vec3 *out, const lmb_planes *planes, const lmb_pinhole
 /* --- the position ------------------------------------------------------------------------------------------------- */
 
 /* An upright object to be placed. */
-typedef struct standing {
+typedef struct standing_place {
     const lmb_planes *planes;
     const lmb_cloud *cloud;
     int32_t p;
     float radius, height; /* m */
-} standing;
+} standing_place;
 
 /* Pixel that shows a point, or -1. */
 static int32_t pixel_of_place(const lmb_pinhole *c, lmb_vec3 at)
@@ -100,7 +100,7 @@ static int32_t pixel_of_place(const lmb_pinhole *c, lmb_vec3 at)
 }
 
 /* Point k of the rim, `radius` from a position on the plane and `height` above it. */
-static lmb_vec3 rim_point(const standing *s, lmb_vec3 at, int32_t k, float radius, float height)
+static lmb_vec3 rim_point(const standing_place *s, lmb_vec3 at, int32_t k, float radius, float height)
 {
     static const float turn[CIRCLE_POINTS][2] = {{1, 0},  {0.7071f, 0.7071f},   {0, 1},  {-0.7071f, 0.7071f},
                                                  {-1, 0}, {-0.7071f, -0.7071f}, {0, -1}, {0.7071f, -0.7071f}};
@@ -110,7 +110,7 @@ static lmb_vec3 rim_point(const standing *s, lmb_vec3 at, int32_t k, float radiu
 }
 
 /* Is the plane visible on the circle and on one of half the radius? */
-static int foot_is_clear(const standing *s, lmb_vec3 at)
+static int foot_is_clear(const standing_place *s, lmb_vec3 at)
 {
     for (int32_t k = 0; k < 2 * CIRCLE_POINTS; ++k) {
         const float radius = k < CIRCLE_POINTS ? s->radius : 0.5f * s->radius;
@@ -123,7 +123,7 @@ static int foot_is_clear(const standing *s, lmb_vec3 at)
 }
 
 /* Does the body lie in the picture, half way up and at the top, with nothing measured in front of it? */
-static int body_is_clear(const standing *s, lmb_vec3 at)
+static int body_is_clear(const standing_place *s, lmb_vec3 at)
 {
     for (int32_t k = 0; k < 2 * CIRCLE_POINTS && s->height > 0.0f; ++k) {
         const lmb_vec3 rim =
@@ -140,7 +140,7 @@ static int body_is_clear(const standing *s, lmb_vec3 at)
 int lmb_planes_clear(lmb_vec3 *out, const lmb_planes *planes, const lmb_cloud *cloud, int32_t p, float radius_m,
                      float height_m)
 {
-    const standing s = {planes, cloud, p, radius_m, height_m};
+    const standing_place s = {planes, cloud, p, radius_m, height_m};
     float min = 1e30f;
     if (out == NULL || !are_labels(planes, cloud) || p < 0 || p >= planes->count) {
         return 0;

@@ -21,14 +21,14 @@ typedef struct polygon {
     float at[MAX_POLYGON_CORNERS][3];
 } polygon;
 
-typedef struct builder {
+typedef struct voxel_builder {
     lmb_voxels *v;
     const int32_t *in; /* the worlds of the part */
     float share;       /* opaque share of the triangle */
     float front;       /* 1; -1 if the instance is mirrored */
     int twice;         /* double-sided */
     int full;
-} builder;
+} voxel_builder;
 
 /* --- cutting ------------------------------------------------------------------------------------------------------ */
 
@@ -65,16 +65,16 @@ static void split(polygon *below, polygon *above, const polygon *p, int axis, fl
     }
 }
 
-typedef struct span {
+typedef struct cell_span {
     int32_t first, last; /* cells */
-} span;
+} cell_span;
 
 /* Clips the polygon to the cube along an axis; returns the range of cells of the rest. */
-static span span_of_polygon(polygon *p, int axis, int32_t side)
+static cell_span span_of_polygon(polygon *p, int axis, int32_t side)
 {
     polygon whole, rest;
     float low = 3e38f, high = -3e38f;
-    span s;
+    cell_span s;
     for (int i = 0; i < p->count; ++i) {
         low = minf(low, p->at[i][axis]);
         high = maxf(high, p->at[i][axis]);
@@ -126,7 +126,7 @@ static void add_area(float *to, float area)
 
 /* During the build a voxel stores area by the direction of the front, +x -x +y -y +z -z: first single-sided surfaces,
  * then double-sided ones. */
-static void add_leaf(builder *b, const polygon *p, octree_cell c)
+static void add_leaf(voxel_builder *b, const polygon *p, octree_cell c)
 {
     if (p->count < 3) {
         return;
@@ -147,9 +147,9 @@ static void add_leaf(builder *b, const polygon *p, octree_cell c)
     }
 }
 
-static void add_polygon_row(builder *b, polygon *rest, octree_cell c)
+static void add_polygon_row(voxel_builder *b, polygon *rest, octree_cell c)
 {
-    const span s = span_of_polygon(rest, 0, 1 << b->v->depth);
+    const cell_span s = span_of_polygon(rest, 0, 1 << b->v->depth);
     polygon p;
     for (c.x = s.first; c.x <= s.last && !b->full; ++c.x) {
         take_slab(&p, rest, 0, c.x, s.last);
@@ -157,9 +157,9 @@ static void add_polygon_row(builder *b, polygon *rest, octree_cell c)
     }
 }
 
-static void add_slice(builder *b, polygon *rest, octree_cell c)
+static void add_slice(voxel_builder *b, polygon *rest, octree_cell c)
 {
-    const span s = span_of_polygon(rest, 1, 1 << b->v->depth);
+    const cell_span s = span_of_polygon(rest, 1, 1 << b->v->depth);
     polygon p;
     for (c.y = s.first; c.y <= s.last && !b->full; ++c.y) {
         take_slab(&p, rest, 1, c.y, s.last);
@@ -169,9 +169,9 @@ static void add_slice(builder *b, polygon *rest, octree_cell c)
     }
 }
 
-static void add_polygon(builder *b, polygon *rest)
+static void add_polygon(voxel_builder *b, polygon *rest)
 {
-    const span s = span_of_polygon(rest, 2, 1 << b->v->depth);
+    const cell_span s = span_of_polygon(rest, 2, 1 << b->v->depth);
     octree_cell c = {0, 0, 0};
     polygon p;
     for (c.z = s.first; c.z <= s.last && !b->full; ++c.z) {
@@ -196,7 +196,7 @@ static float opaque_share(const lmb_triangle *t, const lmb_scene *scene)
     return (float)n / OPACITY_SAMPLES;
 }
 
-static void add_triangle(builder *b, const lmb_scene *scene, uint32_t id)
+static void add_triangle(voxel_builder *b, const lmb_scene *scene, uint32_t id)
 {
     lmb_triangle t;
     polygon p;
@@ -234,7 +234,7 @@ static void begin_voxels(lmb_voxels *v, int32_t depth)
 /* Returns 1 if everything fits. */
 static int add_scene_parts(lmb_voxels *v, const lmb_voxel_part *parts, int32_t count)
 {
-    builder b = {v, NULL, 1.0f, 1.0f, 0, 0};
+    voxel_builder b = {v, NULL, 1.0f, 1.0f, 0, 0};
     for (int32_t i = 0; i < count && !b.full; ++i) {
         const lmb_voxel_part *p = &parts[i];
         const uint32_t all = lmb_scene_triangles(p->scene);

@@ -122,7 +122,7 @@ static uint64_t opaque_pixels(const lmb_bvh *b, const lmb_bvh_triangle *t, const
 }
 
 /* One traversal. */
-typedef struct traversal {
+typedef struct tile_traversal {
     const lmb_bvh *b;
     const lmb_kernels *kernels;
     const lmb_tile *tile;
@@ -131,10 +131,10 @@ typedef struct traversal {
     lmb_traversal *kept;
     uint64_t left; /* pixels not blocked so far */
     uint32_t *own; /* by pixel: the triangle that blocked it last, as in kept->last; or NULL */
-} traversal;
+} tile_traversal;
 
 /* Notes the triangle, as in kept->last, that blocks pixels. */
-static void keep_own(const traversal *w, uint64_t blocked, uint32_t triangle)
+static void keep_own(const tile_traversal *w, uint64_t blocked, uint32_t triangle)
 {
     for (uint64_t bits = w->own != NULL ? blocked : 0; bits != 0; bits &= bits - 1) {
         w->own[lowest_bit_64(bits)] = triangle;
@@ -142,14 +142,14 @@ static void keep_own(const traversal *w, uint64_t blocked, uint32_t triangle)
 }
 
 /* As standing(), and counts the cost: READ_MASKED tests for the triangle, and one for each pixel. */
-static uint64_t test_holes(traversal *w, const lmb_bvh_triangle *t, const lmb_cross_job *job, uint64_t crossed)
+static uint64_t test_holes(tile_traversal *w, const lmb_bvh_triangle *t, const lmb_cross_job *job, uint64_t crossed)
 {
     w->kept->spent += READ_MASKED + (uint32_t)count_bits_64(crossed);
     return opaque_pixels(w->b, t, job, w->tile, crossed);
 }
 
 /* Clears the pixels of `asked` that one triangle blocks. */
-static void test_blocking_triangle(traversal *w, uint32_t triangle, uint64_t asked)
+static void test_blocking_triangle(tile_traversal *w, uint32_t triangle, uint64_t asked)
 {
     const lmb_bvh_triangle *t = &w->b->triangle[triangle];
     lmb_cross_job job;
@@ -163,7 +163,7 @@ static void test_blocking_triangle(traversal *w, uint32_t triangle, uint64_t ask
 }
 
 /* Tests the last occluders. Returns 1 if they block all pixels. */
-static int test_last(traversal *w)
+static int test_last(tile_traversal *w)
 {
     for (int i = 0; i < LMB_LAST_OCCLUDERS && w->kept->last[i] != 0; ++i) {
         const uint32_t triangle = w->kept->last[i] - 1;
@@ -176,7 +176,7 @@ static int test_last(traversal *w)
     return 0;
 }
 
-static void test_boxes_leaf(traversal *w, const lmb_boxes *node, int i, uint64_t asked)
+static void test_boxes_leaf(tile_traversal *w, const lmb_boxes *node, int i, uint64_t asked)
 {
     for (uint32_t k = 0; k < node->count[i] && (w->left & asked) != 0 && !traversal_is_over(w->kept); ++k) {
         const uint64_t before = w->left;
@@ -195,11 +195,11 @@ typedef struct rays {
 } rays;
 
 /* A node with tested leaves, and the children still to visit: box i is bit LMB_BOXES - 1 - i. */
-typedef struct branch {
+typedef struct tile_branch {
     uint32_t node, children;
-} branch;
+} tile_branch;
 
-static uint32_t test_boxes(traversal *w, rays *r, const lmb_boxes *node)
+static uint32_t test_boxes(tile_traversal *w, rays *r, const lmb_boxes *node)
 {
     uint32_t children = 0;
     ++w->kept->asked;
@@ -226,11 +226,11 @@ static uint32_t test_boxes(traversal *w, rays *r, const lmb_boxes *node)
 
 /* Traces the remaining pixels with one pyramid. Returns 0 if that takes over `limit` boxes: some may still be
  * blocked. */
-static int trace_together(traversal *w, uint32_t limit)
+static int trace_together(tile_traversal *w, uint32_t limit)
 {
     const lmb_bvh *bvh = w->b;
     const uint32_t before = w->kept->asked;
-    branch waiting[LMB_TRAVERSAL_LEVELS];
+    tile_branch waiting[LMB_TRAVERSAL_LEVELS];
     rays r;
     int count = 0;
     uint32_t here = 0;
@@ -246,7 +246,7 @@ static int trace_together(traversal *w, uint32_t limit)
         if (w->kept->asked - before > limit || traversal_is_over(w->kept)) {
             return 0;
         }
-        branch *up = &waiting[count - 1];
+        tile_branch *up = &waiting[count - 1];
         here = bvh->node[up->node].first[LMB_BOXES - 1 - lowest_bit(up->children)];
         up->children &= up->children - 1;
         count -= up->children == 0;
@@ -288,7 +288,7 @@ static int crosses(const lmb_cross_job *job, lmb_vec3 d)
 
 /* 1 if a triangle blocks this one pixel, at d from the point. Bit by bit the result of `crossed`, with the cheapest
  * test first: the plane of a reversed edge is exactly negated. */
-static int blocks_one(traversal *w, uint32_t triangle, lmb_vec3 d)
+static int blocks_one(tile_traversal *w, uint32_t triangle, lmb_vec3 d)
 {
     const lmb_bvh_triangle *t = &w->b->triangle[triangle];
     const lmb_vec3 *p = t->corner;
@@ -308,7 +308,7 @@ static int blocks_one(traversal *w, uint32_t triangle, lmb_vec3 d)
 }
 
 /* Tests the leaves of a node that the segment meets. Returns 1 if one blocks. *children: boxes that are nodes. */
-static int node_blocks_one(uint32_t *children, traversal *w, const lmb_boxes *node, const ray *r)
+static int node_blocks_one(uint32_t *children, tile_traversal *w, const lmb_boxes *node, const ray *r)
 {
     *children = 0;
     ++w->kept->asked;
@@ -332,9 +332,9 @@ static int node_blocks_one(uint32_t *children, traversal *w, const lmb_boxes *no
     return 0;
 }
 
-static int one_blocked(traversal *w, int k)
+static int one_blocked(tile_traversal *w, int k)
 {
-    branch waiting[LMB_TRAVERSAL_LEVELS];
+    tile_branch waiting[LMB_TRAVERSAL_LEVELS];
     int count = 0;
     uint32_t here = 0;
     const ray r = ray_of(w->tile, k, w->at);
@@ -347,7 +347,7 @@ static int one_blocked(traversal *w, int k)
         if (count == 0 || traversal_is_over(w->kept)) {
             return 0;
         }
-        branch *up = &waiting[count - 1];
+        tile_branch *up = &waiting[count - 1];
         here = w->b->node[up->node].first[LMB_BOXES - 1 - lowest_bit(up->children)];
         up->children &= up->children - 1;
         count -= up->children == 0;
@@ -355,7 +355,7 @@ static int one_blocked(traversal *w, int k)
 }
 
 /* Tests the triangle that blocked each pixel last. */
-static void test_own(traversal *w)
+static void test_own(tile_traversal *w)
 {
     uint64_t seen = w->left;
     for (uint64_t bits = w->own != NULL ? seen : 0; bits != 0; bits &= bits - 1) {
@@ -367,7 +367,7 @@ static void test_own(traversal *w)
     w->left = seen;
 }
 
-static uint64_t trace(traversal *w)
+static uint64_t trace(tile_traversal *w)
 {
     lmb_traversal *kept = w->kept;
     const uint64_t pixels = w->left;
@@ -427,7 +427,7 @@ uint64_t lmb_occluded_tile(const lmb_kernels *kernels, lmb_traversal *kept, cons
 uint64_t lmb_occluded_again(const lmb_kernels *kernels, lmb_traversal *kept, uint32_t own[LMB_TILE_PIXELS],
                             const lmb_bvh *bvh, const lmb_tile *tile, uint64_t pixels, lmb_vec3 at, float noise)
 {
-    traversal w = {bvh, kernels, tile, at, noise, kept, pixels, own};
+    tile_traversal w = {bvh, kernels, tile, at, noise, kept, pixels, own};
     if (bvh == NULL || kernels == NULL || tile == NULL || kept == NULL || pixels == 0 || bvh->node_count == 0) {
         return 0;
     }

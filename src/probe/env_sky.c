@@ -32,7 +32,7 @@ static float solid_angle_of_place(cube_place p, int32_t n)
     return 4.0f / ((float)n * (float)n) / (d2 * sqrtf(d2));
 }
 
-static void read_texel(float rgb[3], const lmb_env *env, int32_t level, uint32_t i)
+static void read_env_texel(float rgb[3], const lmb_env *env, int32_t level, uint32_t i)
 {
     const uint16_t *texel = env->texels + 4 * (env->at[level] + (size_t)i);
     rgb[0] = half_decode(texel[0]);
@@ -164,7 +164,7 @@ static uint32_t sort_brightest(float *all, const lmb_env *env)
     double sum = 0.0;
     for (uint32_t i = 0; i < texels_of(env, 0); ++i) {
         float rgb[3];
-        read_texel(rgb, env, 0, i);
+        read_env_texel(rgb, env, 0, i);
         sum += (double)(sum3(rgb) * solid_angle_of_place(texel_place(i, env->size), env->size));
         if (sum3(rgb) > highest) {
             highest = sum3(rgb);
@@ -189,7 +189,7 @@ static void gather_sun(lmb_light *out, const lmb_env *env, lmb_vec3 middle, floa
         float rgb[3];
         const cube_place p = texel_place(i, env->size);
         const lmb_vec3 d = direction_of_texel(p, env->size);
-        read_texel(rgb, env, 0, i);
+        read_env_texel(rgb, env, 0, i);
         const float share = share_over(rgb, limit), angle = solid_angle_of_place(p, env->size);
         if (share == 0.0f || dot3(d, middle) < SUN_COSINE) {
             continue;
@@ -242,7 +242,7 @@ uint32_t lmb_env_lights(lmb_light *out, uint32_t cap, const lmb_env *env, int32_
     for (uint32_t i = 0; i < texels_of(env, level); ++i) {
         lmb_light l;
         memset(&l, 0, sizeof l);
-        read_texel(l.intensity, env, level, i);
+        read_env_texel(l.intensity, env, level, i);
         if (sum3(l.intensity) == 0.0f) {
             continue;
         }

@@ -87,11 +87,11 @@ static float sane_alpha(float a) { return a > 1e-5f ? minf(a, 1.0f) : 0.0f; }
 /* The texels of a level that one texel of the next level covers, in a cube face or in the ground. */
 typedef struct {
     halve_taps x, y;
-} box;
+} texel_box;
 
-static box box_of_texel(const lmb_world_level *from, int32_t x, int32_t y)
+static texel_box box_of_texel(const lmb_world_level *from, int32_t x, int32_t y)
 {
-    const box b = {halve_axis(from->width, x), halve_axis(from->height, y)};
+    const texel_box b = {halve_axis(from->width, x), halve_axis(from->height, y)};
     return b;
 }
 
@@ -100,7 +100,7 @@ typedef void (*read_texel)(float rgba[4], const lmb_world *w, const lmb_world_le
                            int32_t y);
 
 /* Mean of the texels of a box, weighted by alpha. */
-static void mean_of_box(float out[4], const lmb_world *w, const lmb_world_level *from, int32_t face, box b,
+static void mean_of_box(float out[4], const lmb_world *w, const lmb_world_level *from, int32_t face, texel_box b,
                         read_texel read)
 {
     const float whole = (float)b.x.whole * (float)b.y.whole;

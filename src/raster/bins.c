@@ -170,7 +170,7 @@ static int put_large(bin_pool *p, bin *b, const bin_large *large)
 }
 
 /* First and last pixels in 0 .. size - 1 with a sample between two 24.8 positions. */
-static void span(int32_t *first, int32_t *last, int32_t low, int32_t high, int32_t origin, int32_t size)
+static void span_of_tiles(int32_t *first, int32_t *last, int32_t low, int32_t high, int32_t origin, int32_t size)
 {
     *first = maxi((low + 255 - origin) >> 8, 0);
     *last = mini((high - origin) >> 8, size - 1);
@@ -186,10 +186,10 @@ static int put_large_triangle(bin_pool *p, const lmb_draw_instance *d, const bin
         return 1;
     }
     *seen = 1;
-    span(&x0, &x1, mini(a->x_24_8, mini(b->x_24_8, c->x_24_8)), maxi(a->x_24_8, maxi(b->x_24_8, c->x_24_8)),
-         d->job.origin_x, p->width);
-    span(&y0, &y1, mini(a->y_24_8, mini(b->y_24_8, c->y_24_8)), maxi(a->y_24_8, maxi(b->y_24_8, c->y_24_8)),
-         d->job.origin_y, p->height);
+    span_of_tiles(&x0, &x1, mini(a->x_24_8, mini(b->x_24_8, c->x_24_8)), maxi(a->x_24_8, maxi(b->x_24_8, c->x_24_8)),
+                  d->job.origin_x, p->width);
+    span_of_tiles(&y0, &y1, mini(a->y_24_8, mini(b->y_24_8, c->y_24_8)), maxi(a->y_24_8, maxi(b->y_24_8, c->y_24_8)),
+                  d->job.origin_y, p->height);
     if (x0 > x1 || y0 > y1 || p->is_full) {
         return 1;
     }

@@ -17,13 +17,13 @@
 enum { PASSES = 3 }; /* a corrected pixel can correct the next one */
 
 /* The neighbours of a pixel that lie in the tile. */
-typedef struct around {
+typedef struct mend_around {
     lmb_vec3 origin, along; /* ray of the middle pixel, from the eye; `along` goes 1 m along the axis */
     float same;             /* m of depth */
     float depth[8];         /* m, of the neighbour's plane at that ray */
     int at[8];
     int hits;               /* neighbours with a surface; they come first */
-} around;
+} mend_around;
 
 typedef struct mender {
     lmb_tile *tile;
@@ -53,14 +53,14 @@ uint64_t lmb_relief_beside(int k)
 
 /* Depth at which the plane of pixel k meets the ray. If the plane is nearly parallel to the ray: the depth of pixel
  * k. */
-static float depth_at_neighbour(const mender *m, const around *a, int k)
+static float depth_at_neighbour(const mender *m, const mend_around *a, int k)
 {
     const lmb_vec3 to = sub3(sub3(get(m->tile->position, k), m->job->eye), a->origin), n = get(m->tile->normal, k);
     const float along = dot3(n, a->along), own = m->tile->depth[k];
     return along < -MIN_RAY_COSINE ? clampf(dot3(n, to) / along, own - a->same, own + a->same) : own;
 }
 
-static void look_around(around *out, const mender *m, uint64_t shown, int k)
+static void look_around(mend_around *out, const mender *m, uint64_t shown, int k)
 {
     const lmb_rays *r = &m->rays;
     const float x = (float)(k % LMB_TILE), y = (float)(k / LMB_TILE);
@@ -76,7 +76,7 @@ static void look_around(around *out, const mender *m, uint64_t shown, int k)
 }
 
 /* Counts the neighbours with a surface at a depth. */
-static int agree(const around *a, float depth)
+static int agree(const mend_around *a, float depth)
 {
     int n = 0;
     for (int i = 0; i < a->hits; ++i) {
@@ -86,7 +86,7 @@ static int agree(const around *a, float depth)
 }
 
 /* Counts the neighbours that share the most common surface. */
-static int most_agree(const around *a)
+static int most_agree(const mend_around *a)
 {
     int max = 0;
     for (int i = 0; i < a->hits; ++i) {
@@ -96,7 +96,7 @@ static int most_agree(const around *a)
 }
 
 /* Sets pixel k to the mean of the largest group of neighbours that agree. */
-static void take_surface(const mender *m, const around *a, int k)
+static void take_surface(const mender *m, const mend_around *a, int k)
 {
     lmb_tile *t = m->tile;
     lmb_vec3 normal = vec3(0.0f, 0.0f, 0.0f), albedo = normal;
@@ -159,7 +159,7 @@ static uint64_t showing(const lmb_tile *t, uint64_t missed)
 static int mend_all(mender *m, lmb_relief_found *found, uint64_t inside)
 {
     const uint64_t hit = found->hit, all = showing(m->tile, found->missed);
-    around a;
+    mend_around a;
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         const uint64_t own = (uint64_t)1 << k, beside = lmb_relief_beside(k) & inside, shown = beside & hit;
         const uint64_t known = (all & own) != 0 ? shown : beside & all;

@@ -32,22 +32,22 @@ enum { HEADER_BYTES = 4 * LMB_RELIEF_HEADER_WORDS, VIEW_BYTES = 4 * LMB_RELIEF_V
 #define MAX_RELIEF_COUNT 0x0fffffffu /* limit of vertices and triangles: products with them fit 64 bits */
 
 /* A file that is being checked. */
-typedef struct source {
+typedef struct relief_source {
     const uint8_t *data;
     uint64_t bytes;
     int swapped; /* the numbers are in the other byte order */
-} source;
+} relief_source;
 
 static uint32_t turned(uint32_t v) { return v >> 24 | (v >> 8 & 0xff00u) | (v << 8 & 0xff0000u) | v << 24; }
 
-static uint32_t word_at(const source *s, uint64_t at)
+static uint32_t word_at(const relief_source *s, uint64_t at)
 {
     uint32_t v;
     memcpy(&v, s->data + at, sizeof v);
     return s->swapped ? turned(v) : v;
 }
 
-static float float_at(const source *s, uint64_t at)
+static float float_at(const relief_source *s, uint64_t at)
 {
     const uint32_t bits = word_at(s, at);
     float v;
@@ -55,15 +55,15 @@ static float float_at(const source *s, uint64_t at)
     return v;
 }
 
-static uint32_t header(const source *s, int word) { return word_at(s, 4u * (uint64_t)word); }
+static uint32_t header(const relief_source *s, int word) { return word_at(s, 4u * (uint64_t)word); }
 
 /* Do `size` bytes at offset `at` lie inside the file? */
-static int holds_bytes(const source *s, uint64_t at, uint64_t size)
+static int holds_bytes(const relief_source *s, uint64_t at, uint64_t size)
 {
     return at % 4 == 0 && at >= HEADER_BYTES && at <= s->bytes && size <= s->bytes - at;
 }
 
-static int holds_array(const source *s, int word, uint64_t count, uint64_t size)
+static int holds_array(const relief_source *s, int word, uint64_t count, uint64_t size)
 {
     return holds_bytes(s, header(s, word), count * size);
 }
@@ -75,12 +75,12 @@ static uint64_t relief_texel_bytes(uint32_t format, uint64_t texels)
     return format == LMB_RELIEF_FULL ? 12 * texels : 4 * texels + (texels + 1) / 2 * 4;
 }
 
-static lmb_vec3 vec_at(const source *s, uint64_t at)
+static lmb_vec3 vec_at(const relief_source *s, uint64_t at)
 {
     return vec3(float_at(s, at), float_at(s, at + 4), float_at(s, at + 8));
 }
 
-static lmb_view view_at(const source *s, uint64_t at)
+static lmb_view view_at(const relief_source *s, uint64_t at)
 {
     lmb_view v;
     v.eye = vec_at(s, at);
@@ -101,7 +101,7 @@ static lmb_view view_at(const source *s, uint64_t at)
 /* Within these limits, products of a view's lengths neither overflow nor underflow. */
 static int is_length(float v) { return v > 1e-9f && v < 1048576.0f; }
 
-static int is_relief_view(const source *s, const lmb_view *v, uint64_t at)
+static int is_relief_view(const relief_source *s, const lmb_view *v, uint64_t at)
 {
     const int sides = v->frame_width >= 2 && v->frame_width <= MAX_SIDE && v->frame_height >= 2 &&
                       v->frame_height <= MAX_SIDE;
@@ -174,7 +174,7 @@ static void set_view(lmb_relief_view *out, const lmb_view *v, uint32_t format)
 
 /* --- the whole ---------------------------------------------------------------------------------------------------- */
 
-static lmb_status check_header(const source *s)
+static lmb_status check_header(const relief_source *s)
 {
     const uint32_t format = header(s, FORMAT), views = header(s, VIEWS), index = header(s, INDEX_FORMAT),
                    vertices = header(s, VERTICES), triangles = header(s, TRIANGLES);
@@ -193,17 +193,17 @@ static lmb_status check_header(const source *s)
     return LMB_OK;
 }
 
-typedef struct range {
+typedef struct file_range {
     uint64_t at, bytes;
-} range;
+} file_range;
 
 enum { ARRAYS = 5 }; /* besides the texels of the views */
 
 /* Byte range of array i, or of the texels of view i - ARRAYS. */
-static range range_of(const source *s, uint32_t i)
+static file_range range_of(const relief_source *s, uint32_t i)
 {
     const uint64_t vertices = header(s, VERTICES), corners = 3 * (uint64_t)header(s, TRIANGLES);
-    range r = {0, 0};
+    file_range r = {0, 0};
     switch (i) {
     case 0: r.at = header(s, RECORDS), r.bytes = (uint64_t)header(s, VIEWS) * VIEW_BYTES; break;
     case 1: r.at = header(s, POSITIONS), r.bytes = 12 * vertices; break;
@@ -220,18 +220,18 @@ static range range_of(const source *s, uint32_t i)
     return r;
 }
 
-static int overlaps(range a, range b)
+static int overlaps(file_range a, file_range b)
 {
     return a.bytes > 0 && b.bytes > 0 && a.at < b.at + b.bytes && b.at < a.at + a.bytes;
 }
 
 /* Are all arrays disjoint? Views are compared with each other only if lmb_relief_open accepts that many, so that the
  * time stays linear in the file size. */
-static int are_apart(const source *s)
+static int are_apart(const relief_source *s)
 {
     const uint32_t views = header(s, VIEWS), all = ARRAYS + views;
     for (uint32_t i = 1; i < all; ++i) {
-        const range own = range_of(s, i);
+        const file_range own = range_of(s, i);
         const uint32_t past = i < ARRAYS || views <= LMB_RELIEF_VIEWS ? i : ARRAYS;
         for (uint32_t k = 0; k < past; ++k) {
             if (overlaps(own, range_of(s, k))) {
@@ -243,7 +243,7 @@ static int are_apart(const source *s)
 }
 
 /* Checks each offset and each number, in either byte order. */
-static lmb_status check_file(source *s, const void *data, size_t bytes)
+static lmb_status check_file(relief_source *s, const void *data, size_t bytes)
 {
     if (data == NULL) {
         return LMB_ERR_ARG;
@@ -275,7 +275,7 @@ static lmb_status check_file(source *s, const void *data, size_t bytes)
     return are_apart(s) ? LMB_OK : LMB_ERR_FORMAT;
 }
 
-static void set_mesh(lmb_mesh *m, const source *s)
+static void set_mesh(lmb_mesh *m, const relief_source *s)
 {
     memset(m, 0, sizeof *m);
     m->positions = s->data + header(s, POSITIONS);
@@ -304,7 +304,7 @@ static void set_relief_look(lmb_relief *out)
 
 lmb_status lmb_relief_open(lmb_relief *out, const void *data, size_t bytes)
 {
-    source s;
+    relief_source s;
     lmb_scene scene;
     if (out == NULL) {
         return LMB_ERR_ARG;
@@ -366,7 +366,7 @@ static void turn_bytes(uint8_t *p, uint64_t count, int size)
 /* Sections do not overlap, so each byte is swapped once. */
 lmb_status lmb_relief_swap(void *data, size_t bytes)
 {
-    source s;
+    relief_source s;
     const lmb_status status = check_file(&s, data, bytes);
     if (status != LMB_OK || !s.swapped) {
         return status;

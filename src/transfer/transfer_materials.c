@@ -12,13 +12,13 @@
 enum { WAITING = LMB_TRANSFER_MAX_HALVINGS + 1 }; /* pending second halves */
 
 /* A part of a triangle: barycentrics of the corners, and share of the area. */
-typedef struct part {
+typedef struct material_part {
     float b1[3], b2[3], share;
     uint32_t node;
-} part;
+} material_part;
 
 /* Corner k of the half moves to the point that divides the edge. */
-static void enter_piece_half(part *p, const transfer_halving *h, int second)
+static void enter_piece_half(material_part *p, const transfer_halving *h, int second)
 {
     const int from = h->from, to = halving_to(from), k = second ? from : to;
     const float rest = 1.0f - h->part;
@@ -30,7 +30,7 @@ static void enter_piece_half(part *p, const transfer_halving *h, int second)
 }
 
 /* Adds area-weighted sums to light->albedo and emission, and areas to light->power[..][0]. */
-static void add_part(const lmb_transfer_light *light, const piece_source *s, const part *p, uint32_t element)
+static void add_part(const lmb_transfer_light *light, const piece_source *s, const material_part *p, uint32_t element)
 {
     surface_piece piece;
     float albedo[3], emission[3];
@@ -47,7 +47,7 @@ static void add_part(const lmb_transfer_light *light, const piece_source *s, con
 }
 
 /* The largest part sets an element's position; ties go to the first. */
-static void set_place(lmb_transfer_place *out, const piece_source *s, const part *p, float side)
+static void set_place(lmb_transfer_place *out, const piece_source *s, const material_part *p, float side)
 {
     const lmb_vec3 *corner = s->triangle.corner;
     const float third = 1.0f / 3.0f;
@@ -66,13 +66,13 @@ static void add_piece_parts(const lmb_transfer_light *light, const lmb_transfer 
                             uint32_t root, uint32_t *left)
 {
     const uint32_t *node = t->section[LMB_TRANSFER_PIECES];
-    part stack[WAITING];
+    material_part stack[WAITING];
     int count = 1;
     memset(&stack[0], 0, sizeof stack[0]);
     stack[0].b1[1] = stack[0].b2[2] = stack[0].share = 1.0f;
     stack[0].node = root;
     while (count > 0 && *left > 0) {
-        part here = stack[--count];
+        material_part here = stack[--count];
         --*left;
         while ((node[here.node] & LMB_TRANSFER_LEAF) == 0 && count < WAITING) {
             const transfer_halving h = halving_of(t, node[here.node]);

@@ -54,7 +54,7 @@ lmb_status lmb_elements_init(lmb_elements *out, uint32_t n, void *memory, size_t
 
 /* Small triangles find their element by grid cell, in a hash table with twice as many slots as elements. The table uses
  * the memory in which the tree's nodes are built later. */
-typedef struct maker {
+typedef struct element_maker {
     lmb_elements *out;
     const lmb_scene *scene;
     uint32_t *slot; /* index of an element + 1, or 0 */
@@ -62,7 +62,7 @@ typedef struct maker {
     uint32_t pieces; /* of divided triangles */
     float side2;
     int full;
-} maker;
+} element_maker;
 
 /* Elements are sorted by facing side: key / 2^27 is the side. */
 static uint32_t element_facing(const lmb_element *e) { return e->key >> (3 * PIECE_Z_BITS); }
@@ -72,20 +72,20 @@ static int32_t cell_along(float at, float low, float per_cell)
     return (int32_t)clampf((at - low) * per_cell, 0.0f, (float)(MAX_CELLS_A_SIDE - 1));
 }
 
-typedef struct cell {
+typedef struct element_cell {
     int32_t x, y, z;
-} cell;
+} element_cell;
 
 /* The box that contains nearly all of the scene. Outliers are clamped to the box, so that they do not take cells from
  * the rest. */
 static lmb_vec3 low_of(const lmb_scene *s) { return s->core.faces > 0 ? s->core.wide_low : s->bounds_min; }
 static lmb_vec3 high_corner(const lmb_scene *s) { return s->core.faces > 0 ? s->core.wide_high : s->bounds_max; }
 
-static cell cell_of_place(const maker *m, lmb_vec3 p)
+static element_cell cell_of_place(const element_maker *m, lmb_vec3 p)
 {
     const float per = 2.0f / sqrtf(m->side2);
     const lmb_vec3 low = low_of(m->scene);
-    cell c;
+    element_cell c;
     c.x = cell_along(p.x, low.x, per);
     c.y = cell_along(p.y, low.y, per);
     c.z = cell_along(p.z, low.z, per);
@@ -93,9 +93,9 @@ static cell cell_of_place(const maker *m, lmb_vec3 p)
 }
 
 /* The slot of the element with e's cell and side, or the empty slot for it. */
-static uint32_t *find_slot(const maker *m, const lmb_element *e)
+static uint32_t *find_slot(const element_maker *m, const lmb_element *e)
 {
-    const cell c = cell_of_place(m, piece_middle(e->corner));
+    const element_cell c = cell_of_place(m, piece_middle(e->corner));
     uint32_t h = (uint32_t)c.x * 73856093u ^ (uint32_t)c.y * 19349663u ^ (uint32_t)c.z * 83492791u ^
                  element_facing(e) * 2654435761u;
     h ^= h >> 15;
@@ -105,14 +105,14 @@ static uint32_t *find_slot(const maker *m, const lmb_element *e)
             return slot;
         }
         const lmb_element *other = &m->out->data[*slot - 1];
-        const cell o = cell_of_place(m, piece_middle(other->corner));
+        const element_cell o = cell_of_place(m, piece_middle(other->corner));
         if (o.x == c.x && o.y == c.y && o.z == c.z && element_facing(other) == element_facing(e)) {
             return slot;
         }
     }
 }
 
-static lmb_element *append(maker *m, const lmb_element *e)
+static lmb_element *append(element_maker *m, const lmb_element *e)
 {
     if (m->out->count == m->out->cap) {
         m->full = 1;
@@ -140,7 +140,7 @@ static void join_elements(lmb_element *into, const lmb_element *e)
     into->reach2 = 0.0f;
 }
 
-static void add_element(maker *m, const lmb_element *e, int small)
+static void add_element(element_maker *m, const lmb_element *e, int small)
 {
     uint32_t *slot = small ? find_slot(m, e) : NULL;
     if (slot != NULL && *slot != 0) {
@@ -151,7 +151,7 @@ static void add_element(maker *m, const lmb_element *e, int small)
 }
 
 /* Adds both sides of a piece. `fresh` temporarily holds the normal. */
-static void add_piece(maker *m, const piece_source *s, const surface_piece *p, int small)
+static void add_piece(element_maker *m, const piece_source *s, const surface_piece *p, int small)
 {
     const lmb_material *material = s->triangle.material;
     const lmb_vec3 at = piece_middle(p->corner);
@@ -241,7 +241,7 @@ static int enter_first(surface_piece *p, turn *t)
 }
 
 /* Stores turns instead of pending pieces: 28 bytes of stack per halving instead of 60. */
-static void add_source(maker *m, const piece_source *s)
+static void add_source(element_maker *m, const piece_source *s)
 {
     turn turns[HALVINGS];
     surface_piece p = {{{0, 0, 0}}, {0, 1, 0}, {0, 0, 1}};
@@ -264,7 +264,7 @@ static void add_source(maker *m, const piece_source *s)
 }
 
 /* Returns 1 if everything fits. */
-static int make(maker *m)
+static int make(element_maker *m)
 {
     const uint32_t all = lmb_scene_triangles(m->scene);
     piece_source s;
@@ -369,7 +369,7 @@ static void set_level(lmb_elements *e, const lmb_tree *lights)
 
 lmb_status lmb_elements_build(lmb_elements *inout, const lmb_scene *scene, const lmb_tree *lights)
 {
-    maker m;
+    element_maker m;
     if (inout == NULL || inout->data == NULL || scene == NULL) {
         return LMB_ERR_ARG;
     }

@@ -112,8 +112,8 @@ static int is_fine(const lmb_many_lights_scratch *s)
     return s->entry[0].error < LMB_MANY_LIGHTS_NEAR && s->error <= SUM_OF_BOUNDS * s->allowed * s->light;
 }
 
-static void part(lmb_many_lights_scratch *s, const lmb_kernels *kernels, const lmb_many_lights_query *query,
-                 const lmb_many_lights_job *job)
+static void divide_node(lmb_many_lights_scratch *s, const lmb_kernels *kernels, const lmb_many_lights_query *query,
+                        const lmb_many_lights_job *job)
 {
     while (s->open > 0 && s->open + s->closed + 7 <= LMB_MANY_LIGHTS_CUT && !is_fine(s)) {
         const lmb_many_lights_entry e = pop(s);
@@ -143,9 +143,9 @@ void lmb_many_lights_cut(lmb_many_lights_scratch *s, const lmb_kernels *kernels,
     s->open = s->closed = s->by_light = 0;
     s->error = s->light = 0.0f;
     add_roots(s, kernels, query->many_lights, job);
-    part(s, kernels, query, job);
+    divide_node(s, kernels, query, job);
     order_by_light(s);
-    part(s, kernels, query, job);
+    divide_node(s, kernels, query, job);
 }
 
 #endif

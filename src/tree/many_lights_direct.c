@@ -71,7 +71,7 @@ static uint64_t occluded_from(const lit_surface *s, uint64_t pixels, uint32_t ki
 
 /* The pixels from which a point is visible. If the four corners of the tile agree, all pixels share their result.
  * Points that contribute much are tested from each pixel. */
-static uint64_t seen_from(const lit_surface *s, uint32_t *tests, uint32_t kind, lmb_vec3 at, int is_strong)
+static uint64_t lights_seen_from(const lit_surface *s, uint32_t *tests, uint32_t kind, lmb_vec3 at, int is_strong)
 {
     if (s->query->bvh == NULL) {
         return s->pixels;
@@ -110,9 +110,9 @@ static void test_active(lmb_active_light *active, const lit_surface *s, const lm
     const lmb_vec3 at = by_lot ? node->median.position : node->strongest.position;
     active->share[0] = maxf(node->share, 0.5f);
     active->share[1] = 1.0f - active->share[0];
-    active->seen[0] = active->seen[1] = seen_from(s, tests, node->kind, at, is_strong);
+    active->seen[0] = active->seen[1] = lights_seen_from(s, tests, node->kind, at, is_strong);
     if (!by_lot && !is_one_place(node, &s->job)) {
-        active->seen[1] = seen_from(s, tests, node->kind, node->median.position, is_strong);
+        active->seen[1] = lights_seen_from(s, tests, node->kind, node->median.position, is_strong);
     }
 }
 

@@ -13,9 +13,9 @@
 enum { GUARD = 12, MIN_FOCAL = 16, MAX_FOCAL = 16383, MIN_NEAR = 16, MAX_NEAR = 4095 };
 
 /* A vertex in camera space: right, up, ahead; 1/16 unit. */
-typedef struct seen_from {
+typedef struct fixed_seen_from {
     int32_t v[3], colour[3];
-} seen_from;
+} fixed_seen_from;
 
 /* Shared by all vertices of a view: the guard band in 1/16 px, and the limits of x / z and y / z in 2^-16. */
 typedef struct looking {
@@ -97,7 +97,8 @@ static void place_vertex(lmb_fixed_vertex *out, const looking *l, const uint32_t
 /* --- clipping ----------------------------------------------------------------------------------------------------- */
 
 /* Cuts from a, inside, to b, outside. */
-static void cut_edge_units(seen_from *out, const seen_from *a, const seen_from *b, int32_t in, int32_t beyond)
+static void cut_edge_units(fixed_seen_from *out, const fixed_seen_from *a, const fixed_seen_from *b, int32_t in,
+                           int32_t beyond)
 {
     const uint32_t whole = (uint32_t)in + (uint32_t)-beyond;
     const int32_t free = zeros_above(whole);
@@ -110,11 +111,12 @@ static void cut_edge_units(seen_from *out, const seen_from *a, const seen_from *
 
 /* Always cuts from the inside to the outside, so that neighbours cut a shared edge at one place. Rounding may leave a
  * shape that is not quite convex: excess corners are dropped. */
-static int cut_by_view_plane(seen_from *out, const seen_from *p, int count, const lmb_fixed_view *view, int plane)
+static int cut_by_view_plane(fixed_seen_from *out, const fixed_seen_from *p, int count, const lmb_fixed_view *view,
+                             int plane)
 {
     int n = 0;
     for (int i = 0; i < count && n + 2 <= FIXED_CORNERS; ++i) {
-        const seen_from *a = &p[i], *b = &p[i + 1 < count ? i + 1 : 0];
+        const fixed_seen_from *a = &p[i], *b = &p[i + 1 < count ? i + 1 : 0];
         const int32_t at = distance_inside(a->v, view, plane), bt = distance_inside(b->v, view, plane);
         if (at >= 0) {
             out[n++] = *a;
@@ -129,7 +131,7 @@ static int cut_by_view_plane(seen_from *out, const seen_from *p, int count, cons
 }
 
 /* 1 if a corner is outside the plane; usually all are inside. */
-static int is_cut(const seen_from *p, int count, const lmb_fixed_view *view, int plane)
+static int is_cut(const fixed_seen_from *p, int count, const lmb_fixed_view *view, int plane)
 {
     int32_t any = 0;
     for (int i = 0; i < count; ++i) {
@@ -146,7 +148,7 @@ static void fixed_triangle(uint32_t out[3], const lmb_fixed *s, uint32_t triangl
 
 int lmb_fixed_clip(lmb_fixed_vertex out[FIXED_CORNERS], const lmb_fixed_frame *f, uint32_t triangle)
 {
-    seen_from one[FIXED_CORNERS], other[FIXED_CORNERS], *a = one, *b = other, *swap;
+    fixed_seen_from one[FIXED_CORNERS], other[FIXED_CORNERS], *a = one, *b = other, *swap;
     uint32_t vertex[3];
     int count = 3;
     const looking l = look_through(&f->view);

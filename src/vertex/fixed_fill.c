@@ -8,14 +8,14 @@
 #include "fixed_part.h"
 #include "number.h"
 
-typedef struct edge {
+typedef struct fixed_edge {
     int32_t x, y, slope; /* 1/16 px; slope in 2^-14 */
-} edge;
+} fixed_edge;
 
-static edge fixed_edge_of(const lmb_fixed_vertex *from, const lmb_fixed_vertex *to)
+static fixed_edge fixed_edge_of(const lmb_fixed_vertex *from, const lmb_fixed_vertex *to)
 {
     const int32_t down = to->y - from->y;
-    edge e = {from->x, from->y, 0};
+    fixed_edge e = {from->x, from->y, 0};
     if (down > 0) {
         const int32_t free = zeros_above((uint32_t)down);
         const uint32_t per = reciprocal((uint32_t)down << free);
@@ -26,7 +26,7 @@ static edge fixed_edge_of(const lmb_fixed_vertex *from, const lmb_fixed_vertex *
 }
 
 /* x in 2^-14 px, for a row with the centre between the edge's ends. */
-static int32_t fixed_edge_at(const edge *e, int32_t middle)
+static int32_t fixed_edge_at(const fixed_edge *e, int32_t middle)
 {
     return e->x * 1024 + ((e->slope * (middle - e->y)) >> 4);
 }
@@ -35,9 +35,9 @@ static int32_t fixed_edge_at(const edge *e, int32_t middle)
 static int32_t first_fixed_pixel(int32_t x) { return (x + 8191) >> 14; }
 
 /* A linear value on the triangle: at the first corner, and per 1/16 px. */
-typedef struct plane {
+typedef struct fixed_plane {
     uint32_t at, per_x, per_y;
-} plane;
+} fixed_plane;
 
 /* Values of a triangle that all planes need. */
 typedef struct slant {
@@ -63,7 +63,7 @@ static uint32_t share(const slant *s, int32_t n, int32_t bits)
     return (uint32_t)signed_high_of(left >= 0 ? n * (1 << left) : n >> -left, s->per);
 }
 
-static int is_gentle(const plane *p, uint32_t most_of)
+static int is_gentle(const fixed_plane *p, uint32_t most_of)
 {
     return p->per_x + most_of <= 2u * most_of && p->per_y + most_of <= 2u * most_of;
 }
@@ -73,7 +73,7 @@ static uint32_t mean_of_thirds(int32_t f0, int32_t f1, int32_t f2) { return (uin
 /* Returns 1 if the plane is gentle. A triangle so steep that the whole change is within 1/16 px gets the mean of the
  * corners. Depth differences are below 65,504, and coordinates below 15,361 because of the guard band: the two products
  * together fit 31 bits. */
-static int set_fixed_depth(plane *out, const slant *s, int32_t f0, int32_t f1, int32_t f2)
+static int set_fixed_depth(fixed_plane *out, const slant *s, int32_t f0, int32_t f1, int32_t f2)
 {
     const int32_t a = f1 - f0, b = f2 - f0, x = a * s->y2 - b * s->y1, y = b * s->x1 - a * s->x2;
     if ((x < 0 ? -x : x) >> DEPTH_STEEP > s->area || (y < 0 ? -y : y) >> DEPTH_STEEP > s->area) {
@@ -88,7 +88,7 @@ static int set_fixed_depth(plane *out, const slant *s, int32_t f0, int32_t f1, i
 }
 
 /* The same, plus half a code for rounding. */
-static int set_colour(plane *out, const slant *s, int32_t f0, int32_t f1, int32_t f2)
+static int set_colour(fixed_plane *out, const slant *s, int32_t f0, int32_t f1, int32_t f2)
 {
     const int32_t a = f1 - f0, b = f2 - f0, x = a * s->y2 - b * s->y1, y = b * s->x1 - a * s->x2;
     if ((x < 0 ? -x : x) >> COLOUR_STEEP > s->area || (y < 0 ? -y : y) >> COLOUR_STEEP > s->area) {
@@ -104,10 +104,10 @@ static int set_colour(plane *out, const slant *s, int32_t f0, int32_t f1, int32_
 
 /* The first pixel of a row, and the step to the next: depth; colours in 1/256 of a code, 16 bits each. `dither`: added
  * to the colours of each pixel from the first one on. */
-typedef struct span {
+typedef struct row_span {
     uint32_t depth, depth_step, red, green, blue, red_step, green_step, blue_step;
     const uint16_t *dither;
-} span;
+} row_span;
 
 /* Bayer's 4 x 4 matrix of 0 .. 15, halved. Each row is repeated, so that a span may begin at any of the first four. */
 #define D(t) ((t) / 2u * 256u)
@@ -195,7 +195,7 @@ typedef uint32_t __attribute__((may_alias)) two_pixels;
 
 /* The two loops of a format: with a depth test, two by two; and for the hull, which is behind all else. */
 #define LOOPS(name, pack) \
-    static void fill_deep_##name(void *pixels, uint16_t *to_depth, int32_t count, const span *s) \
+    static void fill_deep_##name(void *pixels, uint16_t *to_depth, int32_t count, const row_span *s) \
     { \
         uint16_t *to = (uint16_t *)pixels, *const past = to + count; \
         const uint16_t *dither = s->dither; \
@@ -227,7 +227,7 @@ typedef uint32_t __attribute__((may_alias)) two_pixels;
             red += red_by, green += green_by, blue += blue_by; \
         } \
     } \
-    static void fill_hull_##name(void *pixels, uint16_t *to_depth, int32_t count, const span *s) \
+    static void fill_hull_##name(void *pixels, uint16_t *to_depth, int32_t count, const row_span *s) \
     { \
         uint16_t *to = (uint16_t *)pixels, *const past = to + count; \
         const uint16_t *dither = s->dither; \
@@ -239,7 +239,7 @@ LOOPS(555, PACK_555)
 LOOPS(5551, PACK_5551)
 
 /* 8-bit colours: red lies above blue in one word, because sums of blue stay within 16 bits. */
-static void fill_hull_888(void *pixels, uint16_t *to_depth, int32_t count, const span *s)
+static void fill_hull_888(void *pixels, uint16_t *to_depth, int32_t count, const row_span *s)
 {
     uint32_t *to = (uint32_t *)pixels, red_blue = (s->red << 16) + s->blue, green = s->green;
     const uint32_t red_blue_step = (s->red_step << 16) + s->blue_step, green_step = s->green_step;
@@ -259,7 +259,7 @@ static void fill_hull_888(void *pixels, uint16_t *to_depth, int32_t count, const
     }                                                                \
     depth += depth_step, red_blue += red_blue_step, green += green_step;
 
-static void fill_deep_888(void *pixels, uint16_t *to_depth, int32_t count, const span *s)
+static void fill_deep_888(void *pixels, uint16_t *to_depth, int32_t count, const row_span *s)
 {
     uint32_t *to = (uint32_t *)pixels, depth = s->depth, red_blue = (s->red << 16) + s->blue, green = s->green;
     const uint32_t depth_step = s->depth_step, red_blue_step = (s->red_step << 16) + s->blue_step,
@@ -275,7 +275,7 @@ static void fill_deep_888(void *pixels, uint16_t *to_depth, int32_t count, const
     }
 }
 
-typedef void fill_loop(void *pixels, uint16_t *to_depth, int32_t count, const span *s);
+typedef void fill_loop(void *pixels, uint16_t *to_depth, int32_t count, const row_span *s);
 
 static fill_loop *loop_of(const fixed_band *b)
 {
@@ -289,8 +289,8 @@ static int32_t bytes_log2(const fixed_band *b) { return b->format == LMB_FIXED_R
 
 void lmb_fixed_clear(const fixed_band *b, uint32_t colour)
 {
-    static const span nothing = {0};
-    span s = nothing;
+    static const row_span nothing = {0};
+    row_span s = nothing;
     s.red = colour >> 8 & 0xff00u, s.green = colour & 0xff00u, s.blue = (colour & 255u) << 8;
     for (int32_t y = b->first; y < b->past; ++y) {
         s.dither = dithers[y & 3];
@@ -299,15 +299,15 @@ void lmb_fixed_clear(const fixed_band *b, uint32_t colour)
 }
 
 /* A value along a row. */
-typedef struct ramp {
+typedef struct fixed_ramp {
     uint32_t at;
     int32_t step;
-} ramp;
+} fixed_ramp;
 
 /* Pixel centres beside an edge may lie slightly outside the triangle: clamps both ends to 0 .. max. */
-static ramp ramp_within(uint32_t from, int32_t step, int32_t count, int32_t max)
+static fixed_ramp ramp_within(uint32_t from, int32_t step, int32_t count, int32_t max)
 {
-    ramp r = {from, step};
+    fixed_ramp r = {from, step};
     if (from <= (uint32_t)max && from + (uint32_t)step * (uint32_t)(count - 1) <= (uint32_t)max) {
         return r;
     }
@@ -327,16 +327,17 @@ static ramp ramp_within(uint32_t from, int32_t step, int32_t count, int32_t max)
 /* The step in 1/256 of a code. */
 static int32_t colour_step(uint32_t to_x) { return (int32_t)(to_x + 128u) >> 8; }
 
-static ramp colour_ramp(uint32_t from, uint32_t to_x, int32_t count)
+static fixed_ramp colour_ramp(uint32_t from, uint32_t to_x, int32_t count)
 {
     return ramp_within((uint32_t)((int32_t)from >> 8), colour_step(to_x), count, FIXED_TOP);
 }
 
 /* For triangles that are not gentle; they are rare. */
-NOINLINE void set_steep(span *s, const uint32_t at[4], const uint32_t per_x[4], int32_t count)
+NOINLINE void set_steep(row_span *s, const uint32_t at[4], const uint32_t per_x[4], int32_t count)
 {
-    const ramp d = ramp_within(at[0], (int32_t)per_x[0], count, 0x3fffffff), r = colour_ramp(at[1], per_x[1], count),
-               g = colour_ramp(at[2], per_x[2], count), b = colour_ramp(at[3], per_x[3], count);
+    const fixed_ramp d = ramp_within(at[0], (int32_t)per_x[0], count, 0x3fffffff),
+                     r = colour_ramp(at[1], per_x[1], count), g = colour_ramp(at[2], per_x[2], count),
+                     b = colour_ramp(at[3], per_x[3], count);
     s->depth = d.at, s->depth_step = (uint32_t)d.step;
     s->red = r.at, s->green = g.at, s->blue = b.at;
     s->red_step = (uint32_t)r.step, s->green_step = (uint32_t)g.step, s->blue_step = (uint32_t)b.step;
@@ -362,7 +363,7 @@ ALWAYS_INLINE void fill_rows(const fixed_band *b, const lmb_fixed_ready *r, int3
     uint16_t *to_depth = is_deep ? b->depth + above : NULL;
     fill_loop *const loop = loop_of(b);
     int32_t at = 0; /* the pixel of the current values */
-    span s;
+    row_span s;
     s.depth_step = depth_x, s.red_step = (uint32_t)colour_step(red_x), s.green_step = (uint32_t)colour_step(green_x);
     s.blue_step = (uint32_t)colour_step(blue_x);
     const lmb_fixed_edge *other = first < middle ? &r->upper : &r->lower;
@@ -432,12 +433,12 @@ void lmb_fixed_fill(const fixed_band *b, const lmb_fixed_ready *r)
 /* Sets an edge at the centre of a row. */
 static void set_fixed_edge(lmb_fixed_edge *out, const lmb_fixed_vertex *from, const lmb_fixed_vertex *to, int32_t row)
 {
-    const edge e = fixed_edge_of(from, to);
+    const fixed_edge e = fixed_edge_of(from, to);
     out->at = fixed_edge_at(&e, 16 * row + 8);
     out->slope = e.slope;
 }
 
-static void set_number(lmb_fixed_ready *out, int i, const plane *p, const lmb_fixed_vertex *c)
+static void set_number(lmb_fixed_ready *out, int i, const fixed_plane *p, const lmb_fixed_vertex *c)
 {
     out->at[i] = p->at + p->per_x * (uint32_t)(8 - c->x) + p->per_y * (uint32_t)(16 * out->first + 8 - c->y);
     out->per_x[i] = p->per_x * 16u;
@@ -448,7 +449,7 @@ int lmb_fixed_set_up(lmb_fixed_ready *out, const lmb_fixed_vertex *c0, const lmb
                      const lmb_fixed_vertex *c2, int32_t width, int32_t first, int32_t past, int has_depth)
 {
     const lmb_fixed_vertex *top = c0, *middle = c1, *bottom = c2, *swap;
-    plane p;
+    fixed_plane p;
     slant s = {c1->x - c0->x, c1->y - c0->y, c2->x - c0->x, c2->y - c0->y, 0, 0, 0, 0};
     int32_t area = s.x1 * s.y2 - s.x2 * s.y1;
     if (middle->y < top->y) {

@@ -9,16 +9,16 @@
 enum { LIGHT_MOST = 1 << 26, FULL = 32768, CELL_CORNERS = 8 };
 
 /* The places around the lamp, with weights that sum to less than FULL. */
-typedef struct around {
+typedef struct cell_around {
     uint32_t word[CELL_CORNERS], bit[CELL_CORNERS], weight[CELL_CORNERS];
     int count;
-} around;
+} cell_around;
 
 /* The same for all receivers. */
 typedef struct lamp_now {
     const lmb_fixed *s;
     const lmb_fixed_lamp *lamp;
-    around places;
+    cell_around places;
     uint32_t colour[3]; /* 16 bits: intensity / 127, in 2^-bits */
     int32_t bits;
     uint32_t per_cone; /* 2^30 / (cos_inner - cos_outer); 0: a point light */
@@ -46,7 +46,7 @@ static int is_light_place(const lmb_fixed *s, uint32_t place)
     return (int)(s->valid[place >> 5] >> (place & 31u) & 1u);
 }
 
-NOINLINE void find_places(around *out, const lmb_fixed *s, const int32_t at[3])
+NOINLINE void find_places(cell_around *out, const lmb_fixed *s, const int32_t at[3])
 {
     uint32_t part[3], place[CELL_CORNERS] = {0}, weight[CELL_CORNERS] = {0}, sum = 0;
     int32_t cell[3];
@@ -76,7 +76,7 @@ NOINLINE void find_places(around *out, const lmb_fixed *s, const int32_t at[3])
     }
 }
 
-static uint32_t seen_of(const around *a, const uint32_t *seen)
+static uint32_t seen_of(const cell_around *a, const uint32_t *seen)
 {
     uint32_t sum = 0;
     for (int k = 0; k < a->count; ++k) {

@@ -29,14 +29,14 @@ typedef struct kept_corner {
 } kept_corner;
 
 /* A part of a triangle: positions and colours of the corners, and the place in the tree of divisions. */
-typedef struct part {
+typedef struct triangle_part {
     lmb_vec3 at[3];
     float b1[3], b2[3];
     uint32_t node, spare;
-} part;
+} triangle_part;
 
 typedef char scratch_fits[sizeof(kept_corner) == sizeof(((lmb_gouraud_scratch *)0)->corner[0]) &&
-                                  sizeof(part) == sizeof(((lmb_gouraud_scratch *)0)->part[0])
+                                  sizeof(triangle_part) == sizeof(((lmb_gouraud_scratch *)0)->part[0])
                               ? 1
                               : -1];
 
@@ -48,7 +48,7 @@ typedef struct drawing {
     gouraud_view of_world, of_mesh; /* of_mesh and place: for positions as stored */
     float place[3][4];              /* to world space */
     kept_corner *kept;
-    part *parts;
+    triangle_part *parts;
     const lmb_instance *instance;
     const lmb_mesh *mesh;
     const lmb_material *material;
@@ -341,8 +341,8 @@ static void light_at(float e[3], const drawing *d, const triangle *t, lmb_vec3 a
 }
 
 /* `corner`: receivers, or blends if light is stored by direction. */
-static void draw_leaf(const drawing *d, const triangle *t, const part *leaf, const uint32_t *corner, int is_directed,
-                      lmb_vec3 face)
+static void draw_leaf(const drawing *d, const triangle *t, const triangle_part *leaf, const uint32_t *corner,
+                      int is_directed, lmb_vec3 face)
 {
     gouraud_point p[3];
     uint32_t any = 0, all = GOURAUD_OUTSIDE;
@@ -376,7 +376,7 @@ static void draw_leaf(const drawing *d, const triangle *t, const part *leaf, con
 
 /* Moves corner k to the split point of the edge. It is exactly the same point for both triangles that share the
  * edge. */
-static void enter_triangle_half(part *p, const transfer_halving *h, int second)
+static void enter_triangle_half(triangle_part *p, const transfer_halving *h, int second)
 {
     const int from = h->from, to = halving_to(from), k = second ? from : to;
     const float rest = 1.0f - h->part;
@@ -396,7 +396,7 @@ static void draw_divided(const drawing *d, const triangle *t, uint32_t root)
     const lmb_vec3 face = face_of(d, t);
     uint32_t left = file->count[LMB_TRANSFER_DIVISIONS];
     int count = 1;
-    part *first = &d->parts[0];
+    triangle_part *first = &d->parts[0];
     memset(first, 0, sizeof *first);
     for (int i = 0; i < 3; ++i) {
         first->at[i] = world_of(d, t->corner[i]->vertex);
@@ -404,7 +404,7 @@ static void draw_divided(const drawing *d, const triangle *t, uint32_t root)
     first->b1[1] = first->b2[2] = 1.0f;
     first->node = root;
     for (; count > 0 && left > 0; --left) {
-        part here = d->parts[--count];
+        triangle_part here = d->parts[--count];
         while ((node[here.node] & LMB_TRANSFER_LEAF) == 0 && count <= LMB_TRANSFER_MAX_HALVINGS) {
             const transfer_halving h = halving_of(file, node[here.node]);
             d->parts[count] = here;
@@ -549,7 +549,7 @@ lmb_status lmb_gouraud_draw(const lmb_gouraud *g, uint32_t first_id, uint32_t co
     d.g = g;
     d.scene = g->scene;
     d.kept = (kept_corner *)(void *)g->scratch->corner;
-    d.parts = (part *)(void *)g->scratch->part;
+    d.parts = (triangle_part *)(void *)g->scratch->part;
     d.gain = lmb_exp2(g->exposure_ev) * 0.31830989f;
     d.target.pixel = (uint16_t *)g->out.data;
     d.target.pixel_step = g->out.stride_bytes / (int32_t)sizeof(uint16_t);

@@ -163,13 +163,13 @@ void lmb_gouraud_clip(const gouraud_target *t, const gouraud_point p[3], uint32_
 /* --- rows --------------------------------------------------------------------------------------------------------- */
 
 /* From an upper end down to a lower one; x in 1/16 px, `slope` in 2^-14. */
-typedef struct edge {
+typedef struct gouraud_edge {
     int32_t x, y, past, slope;
-} edge;
+} gouraud_edge;
 
-static edge gouraud_edge_of(const gouraud_corner *from, const gouraud_corner *to)
+static gouraud_edge gouraud_edge_of(const gouraud_corner *from, const gouraud_corner *to)
 {
-    edge e;
+    gouraud_edge e;
     const int32_t down = to->y - from->y;
     e.x = from->x;
     e.y = from->y;
@@ -179,30 +179,31 @@ static edge gouraud_edge_of(const gouraud_corner *from, const gouraud_corner *to
 }
 
 /* x in 2^-14 px, for a row with the centre between the edge's ends. */
-static int32_t gouraud_edge_at(const edge *e, int32_t middle)
+static int32_t gouraud_edge_at(const gouraud_edge *e, int32_t middle)
 {
     return e->x * 1024 + ((e->slope * (middle - e->y)) >> 4);
 }
 
 /* Shift across of an edge that moves outwards by a sixteenth of a pixel, down or across. */
-static int32_t edge_growth(const edge *e) { return ((e->slope < 0 ? -e->slope : e->slope) >> 4) + 1024; }
+static int32_t edge_growth(const gouraud_edge *e) { return ((e->slope < 0 ? -e->slope : e->slope) >> 4) + 1024; }
 
 /* The first pixel with a centre not left of x. */
 static int32_t first_gouraud_pixel(int32_t x) { return (x + 8191) >> 14; }
 
 /* A linear value on the triangle, in 0 .. max. Integers if it is gentle. */
-typedef struct plane {
+typedef struct gouraud_plane {
     float at, per_x, per_y, max;   /* at the first corner; per px */
     int32_t first, step_x, step_y; /* at the centre of the target's first pixel; step to the next pixel, and to the next
                                       row */
     int is_gentle;
-} plane;
+} gouraud_plane;
 
 /* Per px: up to this, values fit 31 bits at any distance between a pixel and a corner. */
 #define GENTLE 262144.0f
 
 /* All but the integers. */
-static void set_plane(plane *out, const gouraud_corner c[3], float f0, float f1, float f2, float per_area, float max)
+static void set_plane(gouraud_plane *out, const gouraud_corner c[3], float f0, float f1, float f2, float per_area,
+                      float max)
 {
     const float a = f1 - f0, b = f2 - f0;
     out->at = f0;
@@ -212,7 +213,7 @@ static void set_plane(plane *out, const gouraud_corner c[3], float f0, float f1,
 }
 
 /* Adds the integers if they suffice. */
-static void set_whole_plane(plane *out, const gouraud_corner c[3], float f0, float f1, float f2, float per_area,
+static void set_whole_plane(gouraud_plane *out, const gouraud_corner c[3], float f0, float f1, float f2, float per_area,
                             float max)
 {
     set_plane(out, c, f0, f1, f2, per_area, max);
@@ -225,30 +226,30 @@ static void set_whole_plane(plane *out, const gouraud_corner c[3], float f0, flo
 }
 
 /* x and y: px from the first corner. */
-static float plane_at(const plane *p, float x, float y)
+static float plane_at(const gouraud_plane *p, float x, float y)
 {
     return clampf(p->at + p->per_y * y + p->per_x * x, 0.0f, p->max);
 }
 
 /* A value along a row: at the first pixel, and per pixel, with both ends in the plane's range. */
-typedef struct ramp {
+typedef struct gouraud_ramp {
     int32_t at, step;
-} ramp;
+} gouraud_ramp;
 
-static ramp ramp_between(const plane *p, const gouraud_corner *c, int32_t x, int32_t y, int32_t count)
+static gouraud_ramp ramp_between(const gouraud_plane *p, const gouraud_corner *c, int32_t x, int32_t y, int32_t count)
 {
     const float dx = (float)(16 * x + 8 - c->x) * 0.0625f, dy = (float)(16 * y + 8 - c->y) * 0.0625f;
-    ramp r;
+    gouraud_ramp r;
     r.at = (int32_t)plane_at(p, dx, dy);
     r.step = count > 1 ? ((int32_t)plane_at(p, dx + (float)(count - 1), dy) - r.at) / (count - 1) : 0;
     return r;
 }
 
 /* Pixel centres beside an edge may lie slightly outside the triangle. */
-static inline ramp ramp_of(const plane *p, const gouraud_corner *c, int32_t x, int32_t y, int32_t count)
+static inline gouraud_ramp ramp_of(const gouraud_plane *p, const gouraud_corner *c, int32_t x, int32_t y, int32_t count)
 {
     const uint32_t max = (uint32_t)(int32_t)p->max;
-    ramp r;
+    gouraud_ramp r;
     r.at = p->first + p->step_y * y + p->step_x * x;
     r.step = p->step_x;
     if (!p->is_gentle || (uint32_t)r.at > max || (uint32_t)(r.at + r.step * (count - 1)) > max) {
@@ -271,10 +272,10 @@ static uint16_t pixel_of_channels(uint32_t red_blue, uint32_t green)
 
 /* Bayer's 4 x 4 matrix (1973) in sixteenths, less half of one: for red and for blue. */
 #define BOTH(a) ((uint32_t)(a) << 16 | (uint32_t)(a))
-static const uint32_t dither[4][4] = {{BOTH(64), BOTH(1088), BOTH(320), BOTH(1344)},
-                                      {BOTH(1600), BOTH(576), BOTH(1856), BOTH(832)},
-                                      {BOTH(448), BOTH(1472), BOTH(192), BOTH(1216)},
-                                      {BOTH(1984), BOTH(960), BOTH(1728), BOTH(704)}};
+static const uint32_t dither_table[4][4] = {{BOTH(64), BOTH(1088), BOTH(320), BOTH(1344)},
+                                            {BOTH(1600), BOTH(576), BOTH(1856), BOTH(832)},
+                                            {BOTH(448), BOTH(1472), BOTH(192), BOTH(1216)},
+                                            {BOTH(1984), BOTH(960), BOTH(1728), BOTH(704)}};
 
 /* A 16-bit depth: the four lowest bits of the exponent and twelve of the fraction, so that relative precision is the
  * same near and far. */
@@ -292,7 +293,7 @@ typedef struct depth_ramp {
     float at, step;
 } depth_ramp;
 
-static inline depth_ramp depths_of(const plane *p, const gouraud_corner *c, int32_t x, int32_t y, int32_t count)
+static inline depth_ramp depths_of(const gouraud_plane *p, const gouraud_corner *c, int32_t x, int32_t y, int32_t count)
 {
     const float dx = (float)(16 * x + 8 - c->x) * 0.0625f, dy = (float)(16 * y + 8 - c->y) * 0.0625f;
     const float more = (float)(count - 1), at = p->at + p->per_y * dy + p->per_x * dx, end = at + p->per_x * more;
@@ -307,7 +308,7 @@ static inline depth_ramp depths_of(const plane *p, const gouraud_corner *c, int3
 typedef struct filler {
     const gouraud_target *t;
     const gouraud_corner *c;
-    plane depth, colour[3];
+    gouraud_plane depth, colour[3];
     uint32_t id;
     int how;
     uint32_t red_blue, green; /* the colour for GOURAUD_FLAT */
@@ -318,10 +319,10 @@ static void fill_row(const filler *f, int32_t x, int32_t y, int32_t count)
 {
     const gouraud_target *t = f->t;
     const depth_ramp d = depths_of(&f->depth, f->c, x, y, count);
-    const ramp r = ramp_of(&f->colour[0], f->c, x, y, count), g = ramp_of(&f->colour[1], f->c, x, y, count),
-               b = ramp_of(&f->colour[2], f->c, x, y, count);
+    const gouraud_ramp r = ramp_of(&f->colour[0], f->c, x, y, count), g = ramp_of(&f->colour[1], f->c, x, y, count),
+                       b = ramp_of(&f->colour[2], f->c, x, y, count);
     uint16_t *depth = t->depth16 + y * t->step + x, *pixel = t->pixel + y * t->pixel_step + x, *past = pixel + count;
-    const uint32_t *threshold = dither[y & 3], red_blue_step = red_and_blue(r.step, b.step);
+    const uint32_t *threshold = dither_table[y & 3], red_blue_step = red_and_blue(r.step, b.step);
     uint32_t red_blue = red_and_blue(r.at, b.at);
     int32_t green = g.at;
     float at = d.at;
@@ -346,7 +347,7 @@ static void fill_row_flat(const filler *f, int32_t x, int32_t y, int32_t count)
     for (; pixel != past; ++pixel, ++depth, ++x, at += d.step) {
         const uint16_t own = depth_code(at);
         if (own > *depth) {
-            const uint32_t low = dither[y & 3][x & 3];
+            const uint32_t low = dither_table[y & 3][x & 3];
             *depth = own;
             *pixel = pixel_of_channels(f->red_blue + low, f->green + (low & 0xffffu));
         }
@@ -372,7 +373,7 @@ static void fill_row_ids(const filler *f, int32_t x, int32_t y, int32_t count)
 }
 
 /* Fills the rows with their centres on both edges. */
-static void fill_between(const filler *f, const edge *a, const edge *b, int32_t top, int32_t past)
+static void fill_between(const filler *f, const gouraud_edge *a, const gouraud_edge *b, int32_t top, int32_t past)
 {
     const gouraud_target *t = f->t;
     const int32_t first = maxi((top + 7) >> 4, 0), end = mini((past + 7) >> 4, t->height);
@@ -446,8 +447,8 @@ void lmb_gouraud_fill(const gouraud_target *t, const gouraud_corner c[3], uint32
     f.first = maxi((mini(c[0].x, mini(c[1].x, c[2].x)) + 6) >> 4, 0);
     f.past = mini((maxi(c[0].x, maxi(c[1].x, c[2].x)) + 8) >> 4, t->width);
     set_colour_planes(&f, 16.0f / (float)area);
-    const edge whole = gouraud_edge_of(top, bottom), upper = gouraud_edge_of(top, middle),
-               lower = gouraud_edge_of(middle, bottom);
+    const gouraud_edge whole = gouraud_edge_of(top, bottom), upper = gouraud_edge_of(top, middle),
+                       lower = gouraud_edge_of(middle, bottom);
     fill_between(&f, &whole, &upper, top->y, middle->y);
     fill_between(&f, &whole, &lower, middle->y, bottom->y);
 }
