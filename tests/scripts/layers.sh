@@ -2,8 +2,8 @@
 # in the environment; needs the built library and tool.
 #
 #     layers.sh          checks folders by #include and by nm; cycles between files in both; private headers in tools;
-#                        first lines; file names; the plans in the README files; the rows of mutants.txt; and that it
-#                        finds made-up faults
+#                        first lines; file names; names that several files define; the plans in the README files; the
+#                        rows of mutants.txt; and that it finds made-up faults
 #     layers.sh write    writes the plans into src/README.md and tools/README.md, and the layers into the first lines
 . tests/scripts/checks.sh
 . tests/scripts/mutants.sh
@@ -181,6 +181,13 @@ same_names() {
 none "two files have one name" "$(same_names src/*/*)"
 none "two files have one name" "$(same_names tools/*/*)"
 none "two sources have one name" "$(same_names src/*/*.c tools/*/*.c platform/host/*.c)"
+# ambiguous FILE...: prints names that several sources of src define, with these. A name is then clear in a stack trace,
+# and the two-file version keeps it. Six older names are left.
+ambiguous() {
+    awk -v PART=names -f platform/amalgam/amalgam.awk "$@" |
+        grep -vE '^(area_of|grid_of|is_even|light_tile|share_of|spread):'
+}
+none "several files define" "$(ambiguous src/*/*.c)"
 none "mutants.txt" "$(mutant_faults tests/scripts/mutants.txt .)"
 
 for root in src tools; do
@@ -205,6 +212,11 @@ printf '/* four.inl: a kernel. Floor 1. */\n' >"$made/src/base/four.inl"
 check "a first line without its layer is not found" test -n "$(without_layer "$made/src/base/four.inl")"
 check "a second shade.c is not found" test "$(same_names src/*/* src/isa/shade.c)" = \
     "src/frame/shade.c and src/isa/shade.c"
+printf '%s\n' 'static int next_cell(int i)' '{' '    return i;' '}' 'enum { MAX_CELLS = 4 };' >"$made/src/base/five.c"
+printf '%s\n' 'typedef struct next_cell {' '    int i;' '} next_cell;' 'enum {' '    A_CELL, /* a * b */' \
+    '    MAX_CELLS' '};' >"$made/src/raster/six.c"
+check "made-up ambiguous names are not found" test "$(ambiguous "$made/src/base/five.c" "$made/src/raster/six.c" |
+    sed 's/:.*//' | sort | tr '\n' ';')" = "MAX_CELLS;next_cell;"
 mkdir -p "$made/tests/unit" "$made/tools/cli"
 : >"$made/tests/unit/test_light.c"
 printf '%s\n' '# A table.' 'src/base tests:light' '    tests:gone' 'src/gone - why' 'tools/cli -' >"$made/mutants.txt"
