@@ -13,7 +13,7 @@ enum { TRANSLATION, ROTATION, SCALE };
 enum { STEP, LINEAR, CUBIC };
 enum { N_TRANSLATION = 4, N_ROTATION = 7, N_SCALE = 11 }; /* words of a node's record */
 
-#define STRAIGHT 0.9995f /* cosine of half the rotation; above it, linear interpolation is as good */
+#define MAX_LERP_COSINE 0.9995f /* cosine of half the rotation; above it, linear interpolation is as good */
 
 /* --- between keys ------------------------------------------------------------------------------------------------- */
 
@@ -66,7 +66,7 @@ static void linear(float *out, const track *t, uint32_t key, float u)
     for (int i = 0; t->size == 4 && i < 4; ++i) {
         dot += a[i] * b[i];
     }
-    if (t->size == 4 && absf(dot) < STRAIGHT) {
+    if (t->size == 4 && absf(dot) < MAX_LERP_COSINE) {
         const float angle = lmb_acos(absf(dot)), per = 1.0f / lmb_sin(angle);
         from = lmb_sin((1.0f - u) * angle) * per;
         to = lmb_sin(u * angle) * per;

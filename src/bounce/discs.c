@@ -12,7 +12,7 @@
 
 #define SIN_25 0.42261826f
 #define MAX_RIM_SINE 1e-3f         /* sine: a point this far below the plane still counts as on it */
-#define KEPT 0x80000000u   /* flag in a link: the other bits are the disc's new index */
+#define LINK_IS_KEPT 0x80000000u   /* flag in a link: the other bits are the disc's new index */
 
 enum { MAX_REACH_CELLS = 32 }; /* cells visited in each direction */
 
@@ -245,18 +245,18 @@ static void close_gaps(lmb_points *points, uint32_t first, const lmb_shadow_map 
         data[i].link = data[data[i].link].link;
     }
     for (uint32_t i = first; i < points->count; ++i) {
-        data[i].link = data[i].link == i ? KEPT | kept++ : data[i].link;
+        data[i].link = data[i].link == i ? LINK_IS_KEPT | kept++ : data[i].link;
     }
     for (uint32_t t = points->owner_count - texels; t < points->owner_count; ++t) {
         uint32_t *owner = &points->owner[t];
         if (*owner != LMB_NOBODY) {
             const uint32_t link = data[*owner].link;
-            *owner = (link & KEPT ? link : data[link].link) & ~KEPT;
+            *owner = (link & LINK_IS_KEPT ? link : data[link].link) & ~LINK_IS_KEPT;
         }
     }
     kept = first;
     for (uint32_t i = first; i < points->count; ++i) {
-        if (data[i].link & KEPT) {
+        if (data[i].link & LINK_IS_KEPT) {
             data[kept++] = data[i];
         }
     }

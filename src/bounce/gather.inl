@@ -9,13 +9,13 @@
 /* Squared cosines below 2^-40 count as 0, as for a point in the plane. Light at such a grazing angle adds nothing, but
  * c^2 s would be a denormal, which some targets flush. The limit is on cosines, not lengths: scenes may have any
  * scale. */
-#define GRAZING2 9.0949470e-13f
+#define MIN_COSINE2 9.0949470e-13f
 
 /* Lanes in which a = nP.to and b = -nG.to are above the horizons. r2 = to.to. */
 static inline lane_mask disc_faces(lane a, lane b, lane r2)
 {
     const lane min = lane_min(b, a);
-    return lane_lt(lane_mul(lane_splat(GRAZING2), r2), lane_mul(min, lane_max(min, lane_splat(0.0f))));
+    return lane_lt(lane_mul(lane_splat(MIN_COSINE2), r2), lane_mul(min, lane_max(min, lane_splat(0.0f))));
 }
 
 /* One emitter at one vector of pixels, in W/m2 per watt of flux M.
@@ -69,7 +69,7 @@ static inline lane disc_factor(lane3 to, lane r2, lane3 n, lane3 axis, lane area
  * bunny_room at 1.2 / 1.5 / 2: 0.053 0.144 0.092 / 0.050 0.133 0.080 / 0.049 0.125 0.075; time 1 / 1.3 / 2. */
 #define GROUP_NEAR 1.5f
 /* Discs that share one segment if none of them is near. 1 takes three times the segments for 0.001 of trim. */
-#define SHARED 4u
+#define MAX_SHARED_DISCS 4u
 #define SAME_SURFACE 0.90630779f /* cosine of 25 degrees */
 
 /* Picks instead of adding zeros: -0 + 0 is 0, so the bytes of a lane would depend on its neighbours. */
@@ -194,9 +194,9 @@ NOINLINE int corners_see(const gather_corners *c, const lmb_march_job *m, const 
  * chains are short and many run side by side. The pairs lie in the caller's scratch. Narrow backends take two vectors
  * of pixels at a time, so that a group is read once for both. */
 #if defined(LANE_PLAIN)
-enum { VECTORS = 1, BATCH_PIXELS = LANES, BLOCK_GROUPS = LANES > 1 ? 8 : 4 };
+enum { BATCH_VECTORS = 1, BATCH_PIXELS = LANES, BLOCK_GROUPS = LANES > 1 ? 8 : 4 };
 #else
-enum { VECTORS = LANES > 8 ? 1 : 2, BATCH_PIXELS = VECTORS * LANES };
+enum { BATCH_VECTORS = LANES > 8 ? 1 : 2, BATCH_PIXELS = BATCH_VECTORS * LANES };
 enum { BLOCK_GROUPS = LMB_GATHER_PAIRS < 16 * BATCH_PIXELS || LANES > 8 ? 8 : 16 };
 #endif
 
@@ -327,7 +327,7 @@ LANE_NOINLINE void gather_find(gather_pairs *out, uint64_t *near_pixels, const l
     for (int32_t j = 0; j < group_count; ++j) {
         const gather_group *g = &groups[j];
         uint32_t near_bits, lit = gather_face(out, &near_bits, &first, g, j * BATCH_PIXELS);
-        if (VECTORS > 1) {
+        if (BATCH_VECTORS > 1) {
             uint32_t more;
             lit |= gather_face(out, &more, &second, g, j * BATCH_PIXELS + LANES);
             near_bits |= more << (LANES & 31);
@@ -357,7 +357,7 @@ static inline void gather_estimate(gather_pairs *inout, const lmb_tile *tile, in
     for (int32_t i = 0; i < inout->count; ++i) {
         const int32_t j = inout->lit[i];
         gather_estimate_one(inout, j * BATCH_PIXELS, first, &groups[j]);
-        if (VECTORS > 1) {
+        if (BATCH_VECTORS > 1) {
             gather_estimate_one(inout, j * BATCH_PIXELS + LANES, second, &groups[j]);
         }
     }
@@ -402,12 +402,12 @@ static inline void gather_sum(lmb_irradiance *inout, int k, const gather_pairs *
     for (int32_t i = 0; i < pairs->count; ++i) {
         const int32_t j = pairs->lit[i];
         first = gather_sum_one(first, gather_weight(pairs, j * BATCH_PIXELS), groups[j].flux);
-        if (VECTORS > 1) {
+        if (BATCH_VECTORS > 1) {
             second = gather_sum_one(second, gather_weight(pairs, j * BATCH_PIXELS + LANES), groups[j].flux);
         }
     }
     gather_put(inout, k, first);
-    if (VECTORS > 1) {
+    if (BATCH_VECTORS > 1) {
         gather_put(inout, k + LANES, second);
     }
 }
@@ -423,8 +423,8 @@ typedef struct gather_occluders {
 NOINLINE void gather_hide(gather_pairs *inout, gather_occluders *occluders, const lmb_tile *tile, int k,
                           const gather_group *groups)
 {
-    for (int32_t i = 0; i < inout->count * VECTORS; ++i) {
-        const int32_t j = inout->lit[i / VECTORS], v = i % VECTORS * LANES, at = j * BATCH_PIXELS + v;
+    for (int32_t i = 0; i < inout->count * BATCH_VECTORS; ++i) {
+        const int32_t j = inout->lit[i / BATCH_VECTORS], v = i % BATCH_VECTORS * LANES, at = j * BATCH_PIXELS + v;
         const gather_group *g = &groups[j];
         const lmb_vec3 axis = vec3(-g->back.x, -g->back.y, -g->back.z);
         lane_mask lit = lane_lt(lane_splat(0.0f), gather_weight(inout, at));
@@ -528,7 +528,7 @@ static inline void gather_disc(lmb_irradiance *inout, const lmb_tile *tile, int 
     }
 }
 
-/* Up to SHARED discs. They are consecutive in the shadow map, so they share the segment to one of them. */
+/* Up to MAX_SHARED_DISCS discs. They are consecutive in the shadow map, so they share the segment to one of them. */
 static inline void gather_chunk(lmb_irradiance *inout, uint64_t pixels, const lmb_tile *tile, const lmb_point *discs,
                                 uint32_t count, const lmb_march_job *m, const gather_corners *corners)
 {
@@ -554,8 +554,9 @@ static void KERNEL(gather_near)(lmb_irradiance *inout, uint64_t pixels, const lm
 {
     gather_corners corners;
     gather_corners_set(&corners, tile, m);
-    for (uint32_t j = 0; j < count; j += SHARED) {
-        gather_chunk(inout, pixels, tile, discs + j, count - j < SHARED ? count - j : SHARED, m, &corners);
+    for (uint32_t j = 0; j < count; j += MAX_SHARED_DISCS) {
+        gather_chunk(inout, pixels, tile, discs + j, count - j < MAX_SHARED_DISCS ? count - j : MAX_SHARED_DISCS, m,
+                     &corners);
     }
 }
 

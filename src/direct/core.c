@@ -19,10 +19,17 @@
 #if LMB_TREES
 
 #define MAX_MEAN_DISTANCES 3.0   /* times the mean distance from the centre: limit of members */
-#define TOUCHES 4.0f  /* times the box's size: limit for geometry that touches it and joins it */
-#define SPARE   0.015625f /* share of the area that `wide` may leave out */
-#define FINER   0.0125f   /* of a face's width: a place with fewer than 13 of 1,024 texels gets a separate face */
-enum { MAX_CLUMP_ROUNDS = 8, LIMITS = 5, DEEPER = 3, MAX_SAMPLE_TRIANGLES = 8192, RATIO = 16, MIN_CLUMP_TRIANGLES = 2 };
+#define MAX_TOUCHING_SIZE  4.0f  /* times the box's size: limit for geometry that touches it and joins it */
+#define MAX_SPARE_AREA     0.015625f /* share of the area that `wide` may leave out */
+#define MAX_FINER_SHARE    0.0125f /* of a face's width: a place with under 13 of 1,024 texels gets a face */
+enum {
+    MAX_CLUMP_ROUNDS = 8,
+    MAX_SIZE_LIMITS = 5,
+    MAX_FINER_CORES = 3,
+    MAX_SAMPLE_TRIANGLES = 8192,
+    MAX_FACE_RATIO = 16,
+    MIN_CLUMP_TRIANGLES = 2
+};
 
 typedef struct core_box {
     lmb_vec3 low, high;
@@ -139,7 +146,7 @@ static void box_of_clump(core_box *out, float *in, float *rest, const clump *c, 
             join_core_box(&own, &b);
         }
     }
-    const float max = TOUCHES * size_of_box(&own);
+    const float max = MAX_TOUCHING_SIZE * size_of_box(&own);
     *out = own;
     for (uint32_t id = 1; id <= all; ++id) {
         if (take_triangle(&b, &area, scene, id) && overlap(&b, &own) && size_of_box(&b) <= max) {
@@ -172,7 +179,7 @@ static void find_wide(core_box *inout, const lmb_scene *scene)
     c.under = 0.5f * size_of_box(inout);
     if (find_clump(&c, scene, step_of_samples(scene))) {
         box_of_clump(&b, &in, &rest, &c, scene);
-        *inout = size_of_box(&b) <= 0.5f * size_of_box(inout) && rest <= SPARE * in ? b : *inout;
+        *inout = size_of_box(&b) <= 0.5f * size_of_box(inout) && rest <= MAX_SPARE_AREA * in ? b : *inout;
     }
 }
 
@@ -182,15 +189,15 @@ static int find_finer(core_box *inout, const lmb_scene *scene)
     clump c;
     float limit = 0.5f * size_of_box(inout), in, rest;
     c.in = *inout;
-    for (int i = 0; i < LIMITS; ++i, limit *= 0.25f) {
+    for (int i = 0; i < MAX_SIZE_LIMITS; ++i, limit *= 0.25f) {
         core_box b;
         c.under = limit;
         if (!find_clump(&c, scene, step_of_samples(scene))) {
             return 0;
         }
-        if (c.reach < (double)(size_of_box(inout) * FINER)) {
+        if (c.reach < (double)(size_of_box(inout) * MAX_FINER_SHARE)) {
             box_of_clump(&b, &in, &rest, &c, scene);
-            if (size_of_box(&b) <= size_of_box(inout) * FINER) {
+            if (size_of_box(&b) <= size_of_box(inout) * MAX_FINER_SHARE) {
                 *inout = b;
                 return 1;
             }
@@ -199,11 +206,11 @@ static int find_finer(core_box *inout, const lmb_scene *scene)
     return 0;
 }
 
-/* Number of steps by RATIO, rounded up, from one size to another. */
+/* Number of steps by MAX_FACE_RATIO, rounded up, from one size to another. */
 static int steps_between(float small, float large)
 {
     int n = 0;
-    for (; small < large && n < LMB_CORE_FACES; small *= (float)RATIO) {
+    for (; small < large && n < LMB_CORE_FACES; small *= (float)MAX_FACE_RATIO) {
         ++n;
     }
     return n;
@@ -228,7 +235,7 @@ void lmb_scene_core(lmb_core *out, const lmb_scene *scene)
     wide.high = scene->bounds_max;
     find_wide(&wide, scene);
     core = wide;
-    for (int i = 0; i < DEEPER && find_finer(&core, scene); ++i) {
+    for (int i = 0; i < MAX_FINER_CORES && find_finer(&core, scene); ++i) {
     }
     const int beyond = !is_box_between(&wide, scene->bounds_min, scene->bounds_max);
     const int within = 1 + steps_between(size_of_box(&core), size_of_box(&wide));

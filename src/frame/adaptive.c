@@ -16,8 +16,8 @@
 enum {
     PHASE_SURFACES = 0, /* bands: stores the surfaces of the pixels */
     PHASE_LEVELS = 1,   /* windows: samples of the first level, the second, ... */
-    FILL = PHASE_LEVELS + LATTICE_LEVELS,
-    REST, /* pixels that no sample explains */
+    PHASE_FILL = PHASE_LEVELS + LATTICE_LEVELS,
+    PHASE_REST, /* pixels that no sample explains */
     ADAPTIVE_PHASES
 };
 enum { WINDOW_UNITS = 64 };
@@ -165,15 +165,15 @@ static lmb_status do_piece(const lmb_render *r, lmb_band_scratch *s, int32_t i)
     if (r->light == PHASE_SURFACES) {
         return take_band_surfaces(r, s, i);
     }
-    if (r->light == FILL) {
+    if (r->light == PHASE_FILL) {
         lmb_lattice_fill(l, i);
         return LMB_OK;
     }
-    if (r->light == REST) {
+    if (r->light == PHASE_REST) {
         lmb_lattice_rest(l, i);
     }
     lmb_status status = gather_window(r, s, i);
-    if (r->light == REST && status == LMB_OK) {
+    if (r->light == PHASE_REST && status == LMB_OK) {
         lmb_lattice_closer(l, i);
         status = gather_window(r, s, i);
         lmb_lattice_late(l, i);

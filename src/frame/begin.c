@@ -5,8 +5,8 @@
 #include "requires.h"
 
 #define DEFAULT_SEGMENT_STEPS 12
-#define ERROR   0.02f  /* the `default` of the tool's presets */
-#define VISIBILITY 0.015f
+#define DEFAULT_ERROR         0.02f /* the `default` of the tool's presets */
+#define DEFAULT_VISIBILITY    0.015f
 #define EVEN_ERROR   0.1f /* for light from all sides */
 #define EVEN_VISIBLE 0.2f
 
@@ -36,8 +36,8 @@ void lmb_render_defaults(lmb_frame *f)
     f->bounces = f->bounces != 0 ? f->bounces : 1;
     f->steps = f->steps != 0 ? f->steps : DEFAULT_SEGMENT_STEPS;
     f->samples += f->samples == 0;
-    f->error = f->error != 0.0f ? f->error : even ? EVEN_ERROR : ERROR;
-    f->visibility = f->visibility != 0.0f ? f->visibility : even ? EVEN_VISIBLE : VISIBILITY;
+    f->error = f->error != 0.0f ? f->error : even ? EVEN_ERROR : DEFAULT_ERROR;
+    f->visibility = f->visibility != 0.0f ? f->visibility : even ? EVEN_VISIBLE : DEFAULT_VISIBILITY;
     f->gather_step = f->gather_step != 0 && requires_bounce(f) ? f->gather_step : 1;
     if (takes_lattice(f->gather_step) && requires_transfer(f)) {
         f->gather_step = 1; /* baked light costs less per pixel than a sample */

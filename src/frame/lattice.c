@@ -14,9 +14,9 @@
 #define MIN_NORMAL_COSINE  0.95f /* min cosine between the normals of pixels that share light */
 #define MAX_OFF_PLANE2     1e-3f /* max squared height over the other's plane / squared distance, at equal normals */
 #define MIN_AGREEING_SHARE 0.9f  /* min share of the bilinear weights of the corners that agree, ... */
-#define NEAR   1     /* ... unless one of them is within this many px */
+#define MAX_NEAR_PX        1     /* ... unless one of them is within this many px */
 #define MAX_REACH_PX       6     /* px each way within which a pixel that no corner explains needs a sample, */
-#define CLOSE  1     /* or this many, if the samples within */
+#define MIN_REACH_PX       1     /* or this many, if the samples within */
 #define MIN_DIFFERING_PX   14    /* this many px differ */
 #define MIN_UNEVEN_SHARE   0.3f  /* by more than this share of the mean light */
 
@@ -411,7 +411,7 @@ static int is_explained(const lattice_cell *c, const float agree[4], int32_t x, 
         if (agree[i] > 0.0f) {
             const int32_t dx = x - c->x[i & 1], dy = y - c->y[i >> 1];
             sum += (i & 1 ? u : 1.0f - u) * (i >> 1 ? v : 1.0f - v);
-            near |= dx * dx + dy * dy <= NEAR * NEAR;
+            near |= dx * dx + dy * dy <= MAX_NEAR_PX * MAX_NEAR_PX;
         }
     }
     return sum >= MIN_AGREEING_SHARE || near;
@@ -681,7 +681,7 @@ void lmb_lattice_rest(const lmb_lattice *l, int32_t i)
 void lmb_lattice_closer(const lmb_lattice *l, int32_t i)
 {
     const window w = window_of(l, i);
-    ask_around(l, &w, CLOSE, 1);
+    ask_around(l, &w, MIN_REACH_PX, 1);
 }
 
 void lmb_lattice_late(const lmb_lattice *l, int32_t i)

@@ -16,11 +16,12 @@
 
 #if LMB_PLAN
 
-#define CLEAR 0.015625f /* margin of the test whether a box is outside, in half widths of a face: 1/16 px of the
-                         * smallest map, over 16 times the distance that rounding and snapping to 1/256 px move a
-                         * vertex */
+/* margin of the test whether a box is outside, in half widths of a face: 1/16 px of the smallest map, over 16 times
+ * the distance that rounding and snapping to 1/256 px move a vertex */
+#define MIN_BOX_MARGIN 0.015625f
 
-#define DISCS 1.25f /* max excess of a disc in place of a surface: 16 % at 2 to 3 radii; nearer, the shape is used */
+/* max excess of a disc in place of a surface: 16 % at 2 to 3 radii; nearer, the shape is used */
+#define MAX_DISC_EXCESS 1.25f
 
 static int any3(const float *c) { return c[0] > 0.0f || c[1] > 0.0f || c[2] > 0.0f; }
 
@@ -61,7 +62,7 @@ static int face_meets(const lmb_view *v, const lmb_scene *s)
         const float tangent = i < 2 ? v->half_width : v->half_height;
         const lmb_vec3 out = sub3(side[i], mul3(ahead, tangent)); /* point p is outside if out . p > 0 */
         const float reach = absf(out.x) * half.x + absf(out.y) * half.y + absf(out.z) * half.z;
-        if (is_outside(dot3(out, to), reach, CLEAR * scale * tangent)) {
+        if (is_outside(dot3(out, to), reach, MIN_BOX_MARGIN * scale * tangent)) {
             return 0;
         }
     }
@@ -133,7 +134,7 @@ static float upper_bounced(const lmb_render *r, const lmb_light *l, float albedo
 static void skip_dim(lmb_render *r, float albedo)
 {
     for (uint32_t i = 0; i < r->frame.scene->light_count; ++i) {
-        const float upper = upper_bounced(r, &r->frame.scene->lights[i], albedo) * DISCS;
+        const float upper = upper_bounced(r, &r->frame.scene->lights[i], albedo) * MAX_DISC_EXCESS;
         if (r->light_state[i] == 0 && r->dimmed + upper <= r->frame.dim) {
             r->light_state[i] |= LMB_LIGHT_DIM;
             r->dimmed += upper;

@@ -4,9 +4,9 @@
 #if LMB_MIXED
 
 #define BELONGS_OFF 4.5f
-#define TURNED 0.7071068f /* cosine of 45 degrees: points turned farther belong to another surface */
+#define MIN_OWN_COSINE 0.7071068f /* cosine of 45 degrees: points turned farther belong to another surface */
 
-enum { NEAR_PX = 8, SPECK = 12 };
+enum { NEAR_PX = 8, MAX_SPECK_PX = 12 };
 
 static const int32_t step_x[4] = {-1, 1, 0, 0}, step_y[4] = {0, 0, -1, 1};
 
@@ -51,7 +51,7 @@ static int may_join(const lmb_planes *p, const lmb_cloud *cloud, int32_t at, uin
     const lmb_pinhole *c = &cloud->camera;
     const lmb_flat *plane = &p->plane[label - 1];
     const lmb_vec3 n = cloud->normal[at], ray = lmb_cloud_ray(c, (float)(at % c->width), (float)(at / c->width));
-    return cloud->inverse[at] > 0.0f && (dot3(n, n) == 0.0f || dot3(n, plane->normal) >= TURNED) &&
+    return cloud->inverse[at] > 0.0f && (dot3(n, n) == 0.0f || dot3(n, plane->normal) >= MIN_OWN_COSINE) &&
            plane_off(cloud, plane->slope, cloud->inverse[at], ray) <= BELONGS_OFF;
 }
 
@@ -114,7 +114,7 @@ static uint8_t pixels_around(const gap *hole)
         all += hole->beside[i];
         best = hole->beside[i] > hole->beside[best] || best == 0 ? i : best;
     }
-    const int speck = hole->count <= SPECK;
+    const int speck = hole->count <= MAX_SPECK_PX;
     const int32_t max = hole->beside[best];
     return (speck ? 2 * max > all : !hole->measured && 10 * max >= 9 * all) ? (uint8_t)best : 0;
 }

@@ -4,8 +4,8 @@
 #if LMB_MIXED
 
 #define MIN_UP 0.34202014f /* cosine of 70 degrees: max tilt of a floor from the camera's up */
-#define LEVEL 0.90630779f    /* of 25 degrees: max tilt of level planes */
-#define UPRIGHT 0.17364818f  /* of 80 degrees: min tilt of walls */
+#define MIN_LEVEL_COSINE 0.90630779f /* of 25 degrees: max tilt of level planes */
+#define MAX_WALL_COSINE  0.17364818f /* of 80 degrees: min tilt of walls */
 
 enum { CLEAR_STEP = 4 /* px */, CIRCLE_POINTS = 8 /* points of a circle */ };
 
@@ -18,7 +18,8 @@ static float says_up(const lmb_planes *planes, lmb_vec3 up)
     float sum = 0.0f;
     for (int32_t i = 0; i < planes->count && tall > 0.0f; ++i) {
         const float d = absf(dot3(planes->plane[i].normal, up)),
-                    says = d > LEVEL ? (d - LEVEL) / (1.0f - LEVEL) : 0.5f * maxf(1.0f - d / UPRIGHT, 0.0f);
+                    says = d > MIN_LEVEL_COSINE ? (d - MIN_LEVEL_COSINE) / (1.0f - MIN_LEVEL_COSINE)
+                                                : 0.5f * maxf(1.0f - d / MAX_WALL_COSINE, 0.0f);
         sum += (float)planes->plane[i].pixels * says;
     }
     return sum * tall * tall;
@@ -54,7 +55,7 @@ int32_t lmb_planes_floor(const lmb_planes *planes)
     float max = 0.0f;
     for (int32_t i = 0; planes != NULL && i < planes->count; ++i) {
         const lmb_flat *p = &planes->plane[i];
-        const float size = (float)p->pixels * minf(dot3(p->normal, up) - LEVEL, p->normal.y - MIN_UP);
+        const float size = (float)p->pixels * minf(dot3(p->normal, up) - MIN_LEVEL_COSINE, p->normal.y - MIN_UP);
         if (size > max) {
             max = size;
             best = i;

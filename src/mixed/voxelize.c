@@ -9,10 +9,10 @@
 enum {
     MAX_POLYGON_CORNERS = 12 /* a triangle cut by six planes has nine */,
     OPACITY_SAMPLES = 4,
-    MAX = 32 /* leaf faces a leaf */
+    MAX_LEAF_FACES = 32 /* leaf faces a leaf */
 };
 
-/* Areas are multiples of this, so sums up to MAX are exact and do not depend on the order of triangles. */
+/* Areas are multiples of this, so sums up to MAX_LEAF_FACES are exact and do not depend on the order of triangles. */
 static const float unit_area = 1.0f / 262144.0f;
 
 /* A convex polygon, in leaves. */
@@ -121,7 +121,7 @@ static lmb_vec3 area_of_polygon(const polygon *p)
 
 static void add_area(float *to, float area)
 {
-    *to = minf(*to + floorf(area * (1.0f / unit_area) + 0.5f) * unit_area, (float)MAX);
+    *to = minf(*to + floorf(area * (1.0f / unit_area) + 0.5f) * unit_area, (float)MAX_LEAF_FACES);
 }
 
 /* During the build a voxel stores area by the direction of the front, +x -x +y -y +z -z: first single-sided surfaces,

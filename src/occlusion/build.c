@@ -20,10 +20,10 @@
 #if LMB_TREES
 
 enum {
-    AXIS_BINS = 16,       /* along each axis */
-    LESS = 16,            /* up to this many items use half the bins: most splits are small */
-    MAX_SORTED_ITEMS = 5, /* up to this many items try all splits */
-    LEAF = 4              /* maximum triangles of a leaf while nodes are available */
+    AXIS_BINS = 16,        /* along each axis */
+    MAX_COARSE_ITEMS = 16, /* up to this many items use half the bins: most splits are small */
+    MAX_SORTED_ITEMS = 5,  /* up to this many items try all splits */
+    MAX_LEAF_TRIANGLES = 4 /* maximum triangles of a leaf while nodes are available */
 };
 
 size_t lmb_bvh_bytes(uint32_t n)
@@ -281,7 +281,7 @@ static int sweep(node_cut *best, const split_bins *b, int many, uint32_t count)
 static void cut_bins(node_cut *best, const item_span *item, uint32_t count)
 {
     split_bins b[3];
-    const int many = count > LESS ? AXIS_BINS : AXIS_BINS / 2;
+    const int many = count > MAX_COARSE_ITEMS ? AXIS_BINS : AXIS_BINS / 2;
     set_bins(best, many, item, count);
     fill_bins(b, many, best, item, count);
     for (int axis = 0; axis < 3; ++axis) {
@@ -393,7 +393,7 @@ static int cut_run(item_span *items, run *r, run *more, int *halves)
         cut_bins(&best, item, count);
     }
     /* Testing a box costs about as much as testing a triangle. */
-    if (count <= LEAF && !(best.cost + r->area < r->area * (float)count)) {
+    if (count <= MAX_LEAF_TRIANGLES && !(best.cost + r->area < r->area * (float)count)) {
         r->whole = 1;
         return 0;
     }
@@ -451,7 +451,7 @@ static void set_no_box(lmb_boxes *node, int i)
 /* Fills a node with the triangles first .. first + count - 1 as up to sixteen leaves. */
 static void fill_node(lmb_boxes *node, item_span *items, uint32_t first, uint32_t count, int depth)
 {
-    const int too_many = count > (uint64_t)LEAF << 4 * (LMB_TRAVERSAL_LEVELS - 1 - depth);
+    const int too_many = count > (uint64_t)MAX_LEAF_TRIANGLES << 4 * (LMB_TRAVERSAL_LEVELS - 1 - depth);
     run r[LMB_BOXES];
     int runs = 1, next, halves = too_many;
     const item_span box = span_of_items(items + first, count);
@@ -482,7 +482,7 @@ static node_branch branch_at(lmb_bvh *b, item_span *items, uint32_t at, int deep
     lmb_boxes *node = &b->node[at];
     node_branch out = {at, 0};
     for (int i = 0; i < LMB_BOXES; ++i) {
-        if (node->count[i] > LEAF && b->node_count < b->node_cap && deep < LMB_TRAVERSAL_LEVELS) {
+        if (node->count[i] > MAX_LEAF_TRIANGLES && b->node_count < b->node_cap && deep < LMB_TRAVERSAL_LEVELS) {
             const uint32_t child = b->node_count++;
             fill_node(&b->node[child], items, node->first[i], node->count[i], deep);
             node->first[i] = child;

@@ -20,7 +20,7 @@
 
 #if LMB_TREES
 
-#define ROOM 1.0009765625f /* 1 + 2^-10: how far rounding may move a point out of the box */
+#define ROUNDING_MARGIN   1.0009765625f /* 1 + 2^-10: how far rounding may move a point out of the box */
 #define COORDINATE_WEIGHT 0.125f        /* weight of a coordinate relative to a distance in the room */
 
 static double above(lmb_vec3 normal, lmb_vec3 at, lmb_vec3 p)
@@ -66,7 +66,7 @@ static void measure_hull(lmb_hull *out, const lmb_scene *scene, uint32_t triangl
     }
     out->middle = mul3(add3(low, high), 0.5f);
     const float step = maxf(largest3(sub3(high, out->middle)), largest3(sub3(low, out->middle)));
-    out->reach = step * ROOM;
+    out->reach = step * ROUNDING_MARGIN;
     out->slack = (step + COORDINATE_WEIGHT * maxf(largest3(low), largest3(high))) * (LMB_NOISE_HULL * 0.25f);
 }
 

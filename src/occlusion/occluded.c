@@ -261,11 +261,11 @@ typedef struct ray {
 
 static void ray_axis(lmb_segment *out, float *per, int axis, float d)
 {
-    enum { HIGH = (int)(offsetof(lmb_boxes, high) / sizeof(float)) };
+    enum { HIGH_OFFSET = (int)(offsetof(lmb_boxes, high) / sizeof(float)) };
     const int back = d < 0.0f;
     *per = 1.0f / (absf(d) < MIN_PYRAMID_M ? back ? -MIN_PYRAMID_M : MIN_PYRAMID_M : d);
-    out->enter[axis] = axis * LMB_BOXES + (back ? HIGH : 0);
-    out->leave[axis] = axis * LMB_BOXES + (back ? 0 : HIGH);
+    out->enter[axis] = axis * LMB_BOXES + (back ? HIGH_OFFSET : 0);
+    out->leave[axis] = axis * LMB_BOXES + (back ? 0 : HIGH_OFFSET);
 }
 
 static ray ray_of(const lmb_tile *tile, int k, lmb_vec3 at)

@@ -9,7 +9,8 @@
 
 #if LMB_TREES
 
-#define ALONG 9.5367432e-7f /* 2^-20: below this cosine rays are parallel to a triangle, which then blocks none */
+/* 2^-20: below this cosine rays are parallel to a triangle, which then blocks none */
+#define MIN_RAY_SLOPE 9.5367432e-7f
 #define TRIANGLE_NOISE 0x1p-21f /* of the distance to the corners */
 
 typedef struct sun_traversal {
@@ -43,7 +44,7 @@ static int sun_job(lmb_sun_job *out, const sun_traversal *w, const lmb_bvh_trian
     const lmb_vec3 a = sub3(t->corner[0], w->at), b = sub3(t->corner[1], w->at), c = sub3(t->corner[2], w->at);
     const float far2 = dot3(a, a) + dot3(b, b) + dot3(c, c);
     const float along = dot3(t->normal, w->to), side = along < 0.0f ? -1.0f : 1.0f;
-    if (!(absf(along) > ALONG)) {
+    if (!(absf(along) > MIN_RAY_SLOPE)) {
         return 0;
     }
     out->at = w->at;
@@ -104,7 +105,7 @@ static int sun_blocks_one(const sun_traversal *w, const lmb_bvh_triangle *t, uin
         }
         return inside && (!(t->id & LMB_BVH_MASKED) || sun_standing(w, t, &job, pixel) != 0);
     }
-    return absf(along) > ALONG &&
+    return absf(along) > MIN_RAY_SLOPE &&
            dot3(mul3(cross3(w->to, sub3(c, b)), side), d) + side * dot3(cross3(b, c), w->to) >= 0.0f &&
            dot3(mul3(cross3(w->to, sub3(a, c)), side), d) + side * dot3(cross3(c, a), w->to) >= 0.0f &&
            dot3(mul3(cross3(w->to, sub3(b, a)), side), d) + side * dot3(cross3(a, b), w->to) >= 0.0f &&

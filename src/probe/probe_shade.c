@@ -115,7 +115,7 @@ static void reflect(float out[3][LMB_TILE_PIXELS], const lmb_glossy *glossy, con
 
 /* --- facets smaller than pixels ----------------------------------------------------------------------------------- */
 
-#define FACETS (4.0f / 3.0f) /* ratio of the whole change to the facets' part */
+#define FACET_RATIO (4.0f / 3.0f) /* ratio of the whole change to the facets' part */
 
 /* Pixels with a triangle that none of the four neighbours in the tile shows. Several triangles lie in each, except in
  * some at the tile's edge. */
@@ -165,7 +165,7 @@ static void spread_normals(lmb_probe_rays *rays, const lmb_tile *t, uint64_t pix
     }
     for (uint64_t bits = several; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits), x = k % LMB_TILE;
-        const float part = minf(FACETS * facets[k] / maxf(all[k], 1e-12f), 1.0f);
+        const float part = minf(FACET_RATIO * facets[k] / maxf(all[k], 1e-12f), 1.0f);
         float sum[3] = {0.0f, 0.0f, 0.0f}, weights = 0.0f;
         for (int i = 0; i < 9; ++i) {
             const int at = k + LMB_TILE * (i / 3 - 1) + i % 3 - 1;

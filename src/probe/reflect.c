@@ -13,7 +13,7 @@
 #if LMB_PROBES
 
 enum { RINGS = 8, RING_RAYS = 8, CALM_AROUND = 5, RAYS = RINGS * RING_RAYS };
-enum { FINE = 6 }; /* rays along each side of a mirror's texel: the value is the mean over the texel, as in pictures */
+enum { MIRROR_RAYS_A_SIDE = 6 }; /* along each side of a mirror's texel: the value is the mean over the texel */
 
 /* Without peaks a world is smooth and needs fewer rays. A narrower lobe would show a peak, which is the light of a 32nd
  * of a face, as a speck. */
@@ -96,9 +96,9 @@ static void point_ray(lmb_probe_rays *t, const lobe_ray *ray)
 static void point_fine(lmb_probe_rays *t, int32_t first, int32_t n, int32_t part)
 {
     for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
-        const int32_t i = mini(first + k, 6 * n * n - 1), x = FINE * (i % n) + part % FINE,
-                      y = FINE * (i / n % n) + part / FINE;
-        const lmb_vec3 d = cube_direction(i / (n * n), x, y, FINE * n);
+        const int32_t i = mini(first + k, 6 * n * n - 1), x = MIRROR_RAYS_A_SIDE * (i % n) + part % MIRROR_RAYS_A_SIDE,
+                      y = MIRROR_RAYS_A_SIDE * (i / n % n) + part / MIRROR_RAYS_A_SIDE;
+        const lmb_vec3 d = cube_direction(i / (n * n), x, y, MIRROR_RAYS_A_SIDE * n);
         t->direction[0][k] = d.x;
         t->direction[1][k] = d.y;
         t->direction[2][k] = d.z;
@@ -157,15 +157,15 @@ static void mirror(float *cube, int32_t n, lmb_probe_rays *t, const lmb_kernels 
                    lmb_vec3 at)
 {
     lmb_world_job job;
-    lmb_world_ask(&job, query->world, LMB_WORLD_ALL, 0.5f * LMB_PI / (float)(FINE * n), query->blend);
+    lmb_world_ask(&job, query->world, LMB_WORLD_ALL, 0.5f * LMB_PI / (float)(MIRROR_RAYS_A_SIDE * n), query->blend);
     job.means = 1;
     for (int32_t first = 0; first < 6 * n * n; first += LMB_TILE_PIXELS) {
         set_ray_tile(t, first, n, at);
-        for (int32_t part = 0; part < FINE * FINE; ++part) {
+        for (int32_t part = 0; part < MIRROR_RAYS_A_SIDE * MIRROR_RAYS_A_SIDE; ++part) {
             point_fine(t, first, n, part);
             add_seen(t, 1.0f, kernels, &job);
         }
-        store_cube_texels(cube, t, first, 6 * n * n, 1.0f / (float)(FINE * FINE));
+        store_cube_texels(cube, t, first, 6 * n * n, 1.0f / (float)(MIRROR_RAYS_A_SIDE * MIRROR_RAYS_A_SIDE));
     }
 }
 

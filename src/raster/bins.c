@@ -20,7 +20,7 @@ typedef struct bin {
     uint32_t count[BLOCK_KINDS];                    /* triangles */
 } bin;
 
-enum { MASKED = 1, BLENDS = 2 };
+enum { LARGE_IS_MASKED = 1, LARGE_BLENDS = 2 };
 
 /* A triangle that is large, was clipped, or has holes. */
 typedef struct bin_large {
@@ -30,7 +30,7 @@ typedef struct bin_large {
 } bin_large;
 
 enum { BLOCK_BYTES = sizeof(lmb_bin_block), LARGE_BYTES = sizeof(bin_large) };
-enum { LARGES = BLOCK_BYTES / LARGE_BYTES }; /* per block */
+enum { LARGES_A_BLOCK = BLOCK_BYTES / LARGE_BYTES }; /* per block */
 
 /* Layout of the caller's memory. */
 typedef struct bin_pool {
@@ -159,7 +159,7 @@ static inline int put_small(bin_pool *p, bin *b, const lmb_bin_block *from, int 
 static int put_large(bin_pool *p, bin *b, const bin_large *large)
 {
     uint32_t i;
-    lmb_bin_block *to = pool_place(p, b, LARGE_BLOCKS, LARGES, &i);
+    lmb_bin_block *to = pool_place(p, b, LARGE_BLOCKS, LARGES_A_BLOCK, &i);
     if (to == NULL) {
         return 0;
     }
@@ -216,7 +216,7 @@ static int put_other(bin_pool *p, const lmb_draw_instance *d, const lmb_bin_batc
         n = lmb_one_corners(corner, d, id);
     }
     large.id = id;
-    large.flags = (d->masked ? MASKED : 0u) | (d->blends ? BLENDS : 0u);
+    large.flags = (d->masked ? LARGE_IS_MASKED : 0u) | (d->blends ? LARGE_BLENDS : 0u);
     large.before = 0;
     for (int i = 2; i < n; ++i) {
         large.corner[0] = corner[0], large.corner[1] = corner[i - 1], large.corner[2] = corner[i];
@@ -426,8 +426,8 @@ static void draw_large(const lmb_fill_context *c, const bin_large *l)
     if (!lmb_setup_triangle(&setup, &l->corner[0], &l->corner[1], &l->corner[2])) {
         return;
     }
-    if (l->flags & MASKED) {
-        lmb_fill_masked(c, &setup, l->id, LMB_MULTISAMPLE && (l->flags & BLENDS) != 0);
+    if (l->flags & LARGE_IS_MASKED) {
+        lmb_fill_masked(c, &setup, l->id, LMB_MULTISAMPLE && (l->flags & LARGE_BLENDS) != 0);
     } else {
         fill_one(c, &setup, l->id);
     }
@@ -436,7 +436,7 @@ static void draw_large(const lmb_fill_context *c, const bin_large *l)
 /* The next large triangle if it precedes the bin's small one number `past`; otherwise NULL. */
 static const bin_large *next_large(bin_drawing *d, uint32_t past)
 {
-    const uint32_t i = d->large % LARGES;
+    const uint32_t i = d->large % LARGES_A_BLOCK;
     if (d->large == d->bin->count[LARGE_BLOCKS]) {
         return NULL;
     }
@@ -445,7 +445,7 @@ static const bin_large *next_large(bin_drawing *d, uint32_t past)
         return NULL;
     }
     ++d->large;
-    d->large_block = i == LARGES - 1 ? d->pool->next[d->large_block] : d->large_block;
+    d->large_block = i == LARGES_A_BLOCK - 1 ? d->pool->next[d->large_block] : d->large_block;
     return large;
 }
 

@@ -25,7 +25,7 @@
 
 /* Pieces of the current tile that need no test of single pixels. Before the first pixel passes the depth test the tile
  * is not examined. */
-enum { MIXED = 0, UNKNOWN = 4 };
+enum { COVERS_SOME = 0, COVERS_UNKNOWN = 4 };
 
 /* The triangle's surface, and the rays of the current tile. */
 typedef struct masked_surface {
@@ -40,7 +40,7 @@ typedef struct masked_surface {
     lmb_masked_job job; /* if `batches`, but for the rays */
     int batches;        /* the kernel fills whole tiles */
 #endif
-    int part;     /* of the current tile: MIXED, UNKNOWN, LMB_COVERS_NONE or LMB_COVERS_ALL */
+    int part; /* of the current tile: COVERS_SOME, COVERS_UNKNOWN, LMB_COVERS_NONE or LMB_COVERS_ALL */
 } masked_surface;
 
 /* A 32-bit hash of a surface and a square of pixels. */
@@ -113,12 +113,12 @@ NOINLINE int tile_part(const masked_surface *s, const lmb_fill_context *c)
     }
     if (!(slope_min > MIN_PLANE_SLOPE * slope_max && slope_max > 0.0f) &&
         !(slope_max < MIN_PLANE_SLOPE * slope_min && slope_min < 0.0f)) {
-        return MIXED;
+        return COVERS_SOME;
     }
     for (int k = 0; k < 2; ++k) {
         const float wider = BARYCENTRIC_MARGIN * (high[k] - low[k]);
         if (!is_sane(low[k]) || !is_sane(high[k])) {
-            return MIXED;
+            return COVERS_SOME;
         }
         low[k] -= wider;
         high[k] += wider;
@@ -133,8 +133,8 @@ static int stands_at(masked_surface *s, const lmb_fill_context *c, int32_t x, in
 {
     float b1, b2;
 #if LMB_TREES
-    s->part = s->part == UNKNOWN ? tile_part(s, c) : s->part;
-    if (s->part != MIXED) {
+    s->part = s->part == COVERS_UNKNOWN ? tile_part(s, c) : s->part;
+    if (s->part != COVERS_SOME) {
         return s->part == LMB_COVERS_ALL;
     }
 #endif
@@ -339,7 +339,7 @@ void lmb_fill_masked(const lmb_fill_context *c, const lmb_setup *s, uint32_t id,
                     surface.y = y;
                 }
                 lmb_resolve_rays(&surface.rays, c->view, target->x0 + tx * LMB_TILE, y);
-                surface.part = tx1 > tx0 || ty1 > ty0 ? UNKNOWN : MIXED;
+                surface.part = tx1 > tx0 || ty1 > ty0 ? COVERS_UNKNOWN : COVERS_SOME;
                 fill_tile_masked(c, &tile, &job, &surface);
             }
         }

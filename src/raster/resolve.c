@@ -57,8 +57,8 @@ int lmb_resolve_opaque(const lmb_resolve_alpha *alpha, const lmb_scene *scene, f
 #if LMB_TREES /* small builds draw holes pixel by pixel */
 /* For rounding of the interpolation and of the sample's weights. */
 #define WEIGHT_MARGIN 1.0001f
-#define MIDDLE   (1.0f / 3.0f)
-#define NEVER    2.0f /* more than any alpha */
+#define MIDDLE_SHARE    (1.0f / 3.0f)
+#define ABOVE_ALL_ALPHA 2.0f /* more than any alpha */
 
 int lmb_resolve_is_hole(const lmb_resolve_alpha *a, const lmb_scene *scene, uint32_t *texels)
 {
@@ -69,14 +69,15 @@ int lmb_resolve_is_hole(const lmb_resolve_alpha *a, const lmb_scene *scene, uint
     if (largest < a->cutoff) { /* a texture can only reduce it */
         return 1;
     }
-    if (a->texture < 0 || lmb_resolve_opaque(a, scene, MIDDLE, MIDDLE) || lmb_resolve_opaque(a, scene, 0.5f, 0.5f) ||
-        lmb_resolve_opaque(a, scene, 0.0f, 0.5f) || lmb_resolve_opaque(a, scene, 0.5f, 0.0f)) {
+    if (a->texture < 0 || lmb_resolve_opaque(a, scene, MIDDLE_SHARE, MIDDLE_SHARE) ||
+        lmb_resolve_opaque(a, scene, 0.5f, 0.5f) || lmb_resolve_opaque(a, scene, 0.0f, 0.5f) ||
+        lmb_resolve_opaque(a, scene, 0.5f, 0.0f)) {
         return 0;
     }
     const float low[2] = {minf(minf(a->u[0], a->u[1]), a->u[2]), minf(minf(a->v[0], a->v[1]), a->v[2])};
     const float high[2] = {maxf(maxf(a->u[0], a->u[1]), a->u[2]), maxf(maxf(a->v[0], a->v[1]), a->v[2])};
-    return lmb_texture_coverage(&scene->textures[a->texture], low, high, a->cutoff / (largest * WEIGHT_MARGIN), NEVER,
-                                texels) == LMB_COVERS_NONE;
+    return lmb_texture_coverage(&scene->textures[a->texture], low, high, a->cutoff / (largest * WEIGHT_MARGIN),
+                                ABOVE_ALL_ALPHA, texels) == LMB_COVERS_NONE;
 }
 
 /* The range of a value given at the corners, between barycentrics inside the triangle. */

@@ -14,7 +14,7 @@
 #define NEAR_BY 4.0f  /* max depth difference of two pixels on one surface, in pixel sides */
 #define MIN_RAY_COSINE 0.05f /* cosine to the ray below which a plane gives no depth */
 
-enum { PASSES = 3 }; /* a corrected pixel can correct the next one */
+enum { MAX_MEND_PASSES = 3 }; /* a corrected pixel can correct the next one */
 
 /* The neighbours of a pixel that lie in the tile. */
 typedef struct mend_around {
@@ -189,11 +189,11 @@ void lmb_relief_mend(lmb_tile *inout, lmb_relief_found *found, const lmb_relief_
 {
     const uint64_t inside = in_picture(inout, view);
     mender m;
-    int pass = found->hit != 0 ? 0 : PASSES;
+    int pass = found->hit != 0 ? 0 : MAX_MEND_PASSES;
     m.tile = inout;
     m.job = job;
     lmb_resolve_rays(&m.rays, view, inout->x, inout->y);
-    while (pass < PASSES && mend_all(&m, found, inside)) {
+    while (pass < MAX_MEND_PASSES && mend_all(&m, found, inside)) {
         ++pass;
     }
 }

@@ -11,7 +11,7 @@
 
 #if LMB_RELIEF
 
-enum { DEFAULT_WARP_STEPS = 6, MAX_WARP_STEPS = 32, LOOKS = 6, DEFAULT_KEPT_VIEWS = 3 };
+enum { DEFAULT_WARP_STEPS = 6, MAX_WARP_STEPS = 32, DEFAULT_LOOKED_VIEWS = 6, DEFAULT_KEPT_VIEWS = 3 };
 
 static int in_range(int32_t v, int32_t max) { return v >= 0 && v <= max; }
 
@@ -128,7 +128,7 @@ lmb_status lmb_relief_tile(lmb_tile *inout, const lmb_kernels *kernels, const lm
         return LMB_OK;
     }
     set_warp_job(&job, relief, view, how);
-    choose_views(&job, inout, kernels, relief, how->views != 0 ? how->views : LOOKS);
+    choose_views(&job, inout, kernels, relief, how->views != 0 ? how->views : DEFAULT_LOOKED_VIEWS);
     for (int32_t i = 0; i < job.count; ++i) {
         job.outside |= !job.view[i]->perspective;
     }

@@ -22,8 +22,8 @@ enum {
 
 #define TRANSFER_OWN_ORDER 0x01020304u
 #define LOW_BITS  ((1u << LMB_TRANSFER_EDGE_BIT) - 1u)
-#define MAX_SECTION_ENTRIES \
-    0x10000000u /* entries of a section: products fit 64 bits, indices fit the bits of a halving */
+/* entries of a section: products fit 64 bits, indices fit the bits of a halving */
+#define MAX_SECTION_ENTRIES 0x10000000u
 
 static float as_float(uint32_t word)
 {

@@ -18,7 +18,7 @@
 
 #define MAX_BLOCK_LIGHT 16777216.0f /* 2^24: max light of a block, and the limit of exact integers in binary32 */
 
-enum { VISITS = 8192 }; /* halvings per triangle of a tile; beyond, light descends undivided */
+enum { MAX_TRIANGLE_VISITS = 8192 }; /* halvings per triangle of a tile; beyond, light descends undivided */
 #define WALL_REACH 2.5f /* blocks from a wall within which light goes to the sides that cells show */
 
 /* State of a collection. */
@@ -292,7 +292,7 @@ static void collect_parts(const collection *c, uint32_t id)
         } else if (p->depth == LMB_TRANSFER_MAX_HALVINGS) {
             --parts;
         } else {
-            parts = halve_parts(c, parts, id, word, visits < VISITS);
+            parts = halve_parts(c, parts, id, word, visits < MAX_TRIANGLE_VISITS);
         }
     }
 }

@@ -9,7 +9,7 @@
 
 #if LMB_TRANSFER
 
-enum { WAITING = LMB_TRANSFER_MAX_HALVINGS + 1 }; /* pending second halves */
+enum { MAX_WAITING_HALVES = LMB_TRANSFER_MAX_HALVINGS + 1 }; /* pending second halves */
 
 /* A part of a triangle: barycentrics of the corners, and share of the area. */
 typedef struct material_part {
@@ -66,7 +66,7 @@ static void add_piece_parts(const lmb_transfer_light *light, const lmb_transfer 
                             uint32_t root, uint32_t *left)
 {
     const uint32_t *node = t->section[LMB_TRANSFER_PIECES];
-    material_part stack[WAITING];
+    material_part stack[MAX_WAITING_HALVES];
     int count = 1;
     memset(&stack[0], 0, sizeof stack[0]);
     stack[0].b1[1] = stack[0].b2[2] = stack[0].share = 1.0f;
@@ -74,7 +74,7 @@ static void add_piece_parts(const lmb_transfer_light *light, const lmb_transfer 
     while (count > 0 && *left > 0) {
         material_part here = stack[--count];
         --*left;
-        while ((node[here.node] & LMB_TRANSFER_LEAF) == 0 && count < WAITING) {
+        while ((node[here.node] & LMB_TRANSFER_LEAF) == 0 && count < MAX_WAITING_HALVES) {
             const transfer_halving h = halving_of(t, node[here.node]);
             stack[count] = here;
             enter_piece_half(&stack[count++], &h, 1);

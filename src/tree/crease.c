@@ -15,8 +15,8 @@
 
 #if LMB_TREES
 
-#define MIN_CORNER_SHARE \
-    0.25f /* share of 1 / w at the centre: if a corner has less, the plane runs away from the light */
+/* share of 1 / w at the centre: if a corner has less, the plane runs away from the light */
+#define MIN_CORNER_SHARE 0.25f
 
 /* A point of the map, in the plane at distance 1 (m for suns). */
 typedef struct crease_place {

@@ -26,12 +26,12 @@
 #define BOX_MARGIN         1.001f /* enlarges a box against rounding */
 #define STAND_OFF          4.0f  /* times the noise: offset of a texel's point towards the light */
 #define LARGE_NOISE        1.5258789e-5f /* 2^-16 of the distance to the eye: the origin is then 64 times as far away */
-#define SPENT              8.0 /* factor on the allowed light and error in a tile that has used up the tests */
-#define CLOSER             0.7 /* a split of the pixels must reduce the error to this share to be worth the cuts */
+#define SPENT_TILE_FACTOR     8.0  /* factor on the allowed light and error in a tile that has used up the tests */
+#define MAX_SPLIT_ERROR_SHARE 0.7  /* a split of the pixels must reduce the error to this share to be worth the cuts */
 #define FACETS_NEAR        3.0f /* times LMB_NEAR and half the diagonal of a cell: nearer texels show facets */
 enum { LEAF_PARTS_A_SIDE = 4 /* for a lobe, a near leaf is LEAF_PARTS_A_SIDE x LEAF_PARTS_A_SIDE parts */ };
-enum { NO_SLOT = -1, GONE = 0xffff /* level of a slot without a node */ };
-enum { AHEAD = LMB_BOUNDS_NODES / 4 /* nodes with children bounded together */ };
+enum { NO_SLOT = -1, NO_LEVEL = 0xffff /* level of a slot without a node */ };
+enum { MAX_NODES_AHEAD = LMB_BOUNDS_NODES / 4 /* nodes with children bounded together */ };
 
 /* --- the cut ------------------------------------------------------------------------------------------------------ */
 
@@ -48,7 +48,7 @@ typedef struct cutter {
     float per_pixel;     /* 1 / pixels of the cluster */
     int lobe;            /* a pixel with a lobe that represents the cluster; NO_SLOT: no lobes */
     double beside;       /* mean light of the pixels from other sources */
-    int32_t ahead[AHEAD]; /* slots with bounded children that are not placed yet, four each; or NO_SLOT */
+    int32_t ahead[MAX_NODES_AHEAD]; /* slots with bounded children that are not placed yet, four each; or NO_SLOT */
     uint32_t faces;      /* bounded nodes that do not face away */
     const float *key;    /* bucket keys: cut->error or cut->upper */
     int highest;         /* no higher bucket is in use */
@@ -200,7 +200,7 @@ static int is_spent(const cutter *c) { return !c->cut_params->conservative && c-
 
 static double allowed_error(const cutter *c)
 {
-    const double share = (double)c->cut_params->error * (is_spent(c) ? SPENT : 1.0);
+    const double share = (double)c->cut_params->error * (is_spent(c) ? SPENT_TILE_FACTOR : 1.0);
     const double upper = share * (c->beside + c->value);
     return c->cut_params->conservative ? upper : maxd(upper * upper, c->floor * c->floor);
 }
@@ -409,7 +409,7 @@ static void bound_parts(cutter *c, int32_t i)
 {
     const int upper = maxi(c->kernels->lanes / 4, 1);
     int count = 0, b = c->highest;
-    for (int k = 0; k < AHEAD; ++k) {
+    for (int k = 0; k < MAX_NODES_AHEAD; ++k) {
         c->ahead[k] = NO_SLOT;
     }
     for (int32_t next = i; next != NO_SLOT && count < upper; ++count) {
@@ -429,10 +429,10 @@ static void bound_parts(cutter *c, int32_t i)
 static int parts_of_entry(cutter *c, int32_t i)
 {
     int k = 0;
-    while (k < AHEAD && c->ahead[k] != i) {
+    while (k < MAX_NODES_AHEAD && c->ahead[k] != i) {
         ++k;
     }
-    if (k == AHEAD) {
+    if (k == MAX_NODES_AHEAD) {
         bound_parts(c, i);
         k = 0;
     }
@@ -448,7 +448,7 @@ static void divide_entry(cutter *c, int32_t i, uint64_t visible, int asks)
     const uint32_t blocker = blocker_of(c->cut, i);
     int32_t slot = i;
     count_in_entry(c, i, -1.0);
-    c->cut->ref[i].level = GONE;
+    c->cut->ref[i].level = NO_LEVEL;
     for (int k = 0; k < 4; ++k) {
         if (c->faces >> (first + k) & 1u) {
             const int32_t to = slot >= 0 ? slot : c->cut->count++;
@@ -467,7 +467,7 @@ static int has_room(const cutter *c) { return c->cut->count + 3 <= LMB_MAX_CUT; 
 /* Largest light of a node with a single visibility test. */
 static double allowed_upper(const cutter *c, double lower)
 {
-    const double share = (double)c->cut_params->visibility * (is_spent(c) ? SPENT : 1.0);
+    const double share = (double)c->cut_params->visibility * (is_spent(c) ? SPENT_TILE_FACTOR : 1.0);
     return maxd(share * (c->beside + maxd(c->value, lower)), c->floor);
 }
 
@@ -526,7 +526,7 @@ static int is_right(cutter *c)
 {
     c->error = 0.0;
     for (int32_t i = 0; i < c->cut->count; ++i) {
-        if (c->cut->ref[i].level != GONE && c->cut->visible[i] != 0) {
+        if (c->cut->ref[i].level != NO_LEVEL && c->cut->visible[i] != 0) {
             c->error += counted_error(c, i);
         }
     }
@@ -556,7 +556,7 @@ NOINLINE void begin_cut(cutter *c)
             }
         }
     }
-    for (int k = 0; k < AHEAD; ++k) {
+    for (int k = 0; k < MAX_NODES_AHEAD; ++k) {
         c->ahead[k] = NO_SLOT;
     }
 }
@@ -567,7 +567,7 @@ static void wait_by_error(cutter *c)
     empty_buckets(c, c->cut->of.error);
     c->error = 0.0;
     for (int32_t i = 0; i < c->cut->count; ++i) {
-        if (c->cut->ref[i].level != GONE && c->cut->visible[i] != 0) {
+        if (c->cut->ref[i].level != NO_LEVEL && c->cut->visible[i] != 0) {
             c->error += counted_error(c, i);
             wait(c, i);
         }
@@ -585,7 +585,7 @@ static double take_cut(cutter *c)
     if (c->cut_params->bvh != NULL) {
         const double lower = c->value * MIN_SEEN_SHARE;
         for (int32_t i = 0; i < c->cut->count; ++i) {
-            if (c->cut->ref[i].level != GONE) {
+            if (c->cut->ref[i].level != NO_LEVEL) {
                 test_visibility(c, i, 0);
             }
         }
@@ -961,7 +961,7 @@ NOINLINE void light_cluster(lmb_irradiance *inout, cutter *c)
         light_by_all(&s);
     } else {
         for (int32_t i = 0; i < c->cut->count; ++i) {
-            if (c->cut->ref[i].level != GONE && c->cut->visible[i] != 0) {
+            if (c->cut->ref[i].level != NO_LEVEL && c->cut->visible[i] != 0) {
                 light_by(&s, c->cut->ref[i], c->cut->visible[i]);
             }
         }
@@ -1051,7 +1051,8 @@ static int light_together(lmb_irradiance *inout, cutter *c, lmb_pixel_cluster *p
     const double now = take_cut(c);
     c->cut->tests_left = c->cut->use.traversal.left;
     c->cut->coarse += c->cut->use.traversal.coarse;
-    if (now > 0.0 && (now < CLOSER * *over || now > MAX_ERROR_EXCESS) && count_bits_64(p->pixels) > 1 && !is_spent(c)) {
+    if (now > 0.0 && (now < MAX_SPLIT_ERROR_SHARE * *over || now > MAX_ERROR_EXCESS) && count_bits_64(p->pixels) > 1 &&
+        !is_spent(c)) {
         *over = now;
         return 0;
     }
@@ -1067,12 +1068,12 @@ typedef struct waiting {
     uint64_t pixels;
     double over;
 } waiting;
-enum { HALVES = 7 /* 64 pixels, 32, ... 1 */ };
+enum { MAX_CLUSTER_HALVES = 7 /* 64 pixels, 32, ... 1 */ };
 
 /* Cost: each split into halves wastes one full cut. */
 static void light_surface(lmb_irradiance *inout, cutter *c, uint64_t pixels)
 {
-    waiting wait[HALVES + 1];
+    waiting wait[MAX_CLUSTER_HALVES + 1];
     int count = 1;
     wait[0].pixels = pixels;
     wait[0].over = 1e300;

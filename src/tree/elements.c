@@ -11,7 +11,7 @@
 #if LMB_TREES
 
 enum {
-    HALVINGS = 32, /* max halvings of a triangle at the longest edge: 2^31 pieces; 2^24 is the limit */
+    MAX_TRIANGLE_HALVINGS = 32, /* max halvings of a triangle at the longest edge: 2^31 pieces; 2^24 is the limit */
     MAX_CELLS_A_SIDE = 1 << 20,
     MAX_PIECES = 64 /* per element: also ends the division of pieces without area, or all hole */
 };
@@ -243,7 +243,7 @@ static int enter_first(surface_piece *p, turn *t)
 /* Stores turns instead of pending pieces: 28 bytes of stack per halving instead of 60. */
 static void add_source(element_maker *m, const piece_source *s)
 {
-    turn turns[HALVINGS];
+    turn turns[MAX_TRIANGLE_HALVINGS];
     surface_piece p = {{{0, 0, 0}}, {0, 1, 0}, {0, 0, 1}};
     int depth = 0, from = 0;
     memcpy(p.corner, s->triangle.corner, sizeof p.corner);
@@ -252,7 +252,7 @@ static void add_source(element_maker *m, const piece_source *s)
         return;
     }
     do {
-        while (depth < HALVINGS && longest_edge(&from, &p) > m->side2) {
+        while (depth < MAX_TRIANGLE_HALVINGS && longest_edge(&from, &p) > m->side2) {
             enter_second(&p, &turns[depth++], from);
         }
         add_piece(m, s, &p, 0);

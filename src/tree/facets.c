@@ -16,7 +16,7 @@
 
 #if LMB_FACETS
 
-#define HIDDEN 1.0f /* rows of pixels: if more of a part does not show, something hides it */
+#define MAX_HIDDEN_ROWS 1.0f /* rows of pixels: if more of a part does not show, something hides it */
 #define MAX_SMALL_SHARE 0.5f /* of a cell: a triangle that covers less is small */
 
 /* --- at the tree's building --------------------------------------------------------------------------------------- */
@@ -287,7 +287,7 @@ static void list_surfaces(lmb_facets *f)
 static int lacks_pixels(const lmb_facet *part, const lmb_facets *f, uint64_t pixels)
 {
     const float shown = (float)count_bits_64(pixels) / (float)(f->each * f->each);
-    return part->area * part->per_area - shown > HIDDEN / (float)f->each;
+    return part->area * part->per_area - shown > MAX_HIDDEN_ROWS / (float)f->each;
 }
 
 void lmb_facets_open(lmb_facets *out, const lmb_tree *tree, const lmb_scene *scene, lmb_node_ref at)

@@ -153,8 +153,8 @@ static void add_irradiance(lmb_irradiance *inout, lmb_many_lights_scratch *scrat
     }
 }
 
-#define LITTLE 0.2f    /* if less of the light arrives, a second cut is made: windows lie between nodes */
-#define FINEST 0.0625f /* min error of a second cut, as a share of the requested error */
+#define MAX_LITTLE_SHARE 0.2f    /* if less of the light arrives, a second cut is made: windows lie between nodes */
+#define MIN_ERROR_SHARE  0.0625f /* min error of a second cut, as a share of the requested error */
 
 /* Share of the cut's light that arrived, averaged over the surface's pixels. */
 static float seen_share(const lmb_irradiance *arrived, float light, const lit_surface *s)
@@ -185,8 +185,8 @@ NOINLINE void light_by_seen(lmb_irradiance *inout, lmb_many_lights_scratch *scra
     lmb_irradiance arrived;
     light_part(&arrived, scratch, s, s->query);
     const float share = seen_share(&arrived, scratch->light, s);
-    if (share < LITTLE && finer.bvh != NULL) {
-        finer.error = scratch->allowed * maxf(share, FINEST);
+    if (share < MAX_LITTLE_SHARE && finer.bvh != NULL) {
+        finer.error = scratch->allowed * maxf(share, MIN_ERROR_SHARE);
         light_part(&arrived, scratch, s, &finer);
     }
     for (int c = 0; c < 3; ++c) {

@@ -7,7 +7,7 @@
 
 #if LMB_TREES
 
-#define NOISE 2.3841858e-7f /* 2^-22 of the largest coordinate: four times the rounding of a position */
+#define PLACE_NOISE 2.3841858e-7f /* 2^-22 of the largest coordinate: four times the rounding of a position */
 
 /* Sine of an angle under 90 degrees; otherwise 1. */
 static float sine_of(float cosine) { return cosine > 0.0f ? sqrtf(maxf(1.0f - cosine * cosine, 0.0f)) : 1.0f; }
@@ -47,7 +47,7 @@ static void set_cluster_box(lmb_pixel_cluster *out, const lmb_tile *tile, uint64
         out->half[i] = box_half(&box, i);
     }
     out->centre = box_middle(&box);
-    out->noise = NOISE * largest;
+    out->noise = PLACE_NOISE * largest;
     out->thick = 0.0f;
     for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
         const lmb_vec3 d = sub3(tile_vec(tile->position, lowest_bit_64(bits)), out->centre);

@@ -16,7 +16,7 @@
 
 #define COSINE_ROUNDING 3e-7f /* of a cosine */
 enum { NO_PIXEL = -1 };
-#define GOLDEN 40503u /* 2^16 / 1.618034 */
+#define GOLDEN_STEP 40503u /* 2^16 / 1.618034 */
 
 size_t lmb_tree_bytes(uint32_t faces, int32_t size)
 {
@@ -112,7 +112,7 @@ static uint32_t turn_of(int32_t x, int32_t y)
 {
     static const uint8_t reversed[8] = {0, 4, 2, 6, 1, 5, 3, 7};
     const uint32_t down = (uint32_t)reversed[y & 7] << 13 | (uint32_t)reversed[y >> 3 & 7] << 10;
-    return (down + (uint32_t)x * GOLDEN) & 0xffffu;
+    return (down + (uint32_t)x * GOLDEN_STEP) & 0xffffu;
 }
 
 /* A texel takes the surface at its centre, pixel own, or a surface in front of or behind it, in proportion to its

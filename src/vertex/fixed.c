@@ -10,7 +10,7 @@
 #include "fixed_part.h"
 #include "number.h"
 
-enum { GUARD = 12, MIN_FOCAL = 16, MAX_FOCAL = 16383, MIN_NEAR = 16, MAX_NEAR = 4095 };
+enum { GUARD_WIDTHS = 12, MIN_FOCAL = 16, MAX_FOCAL = 16383, MIN_NEAR = 16, MAX_NEAR = 4095 };
 
 /* A vertex in camera space: right, up, ahead; 1/16 unit. */
 typedef struct fixed_seen_from {
@@ -27,7 +27,7 @@ static looking look_through(const lmb_fixed_view *view)
 {
     const int32_t free = zeros_above((uint32_t)view->focal);
     const uint32_t per = reciprocal((uint32_t)view->focal << free);
-    looking l = {view, GUARD * view->width, GUARD * view->height, 0, 0};
+    looking l = {view, GUARD_WIDTHS * view->width, GUARD_WIDTHS * view->height, 0, 0};
     l.most_x = (int32_t)(high_of((uint32_t)l.guard_x << 16, per) >> (30 - free));
     l.most_y = (int32_t)(high_of((uint32_t)l.guard_y << 16, per) >> (30 - free));
     return l;
@@ -45,7 +45,8 @@ static void turn_to_view(int32_t v[3], const lmb_fixed_view *view, const int32_t
 /* Distance inside of a plane, in 31 bits: near, left, right, below, above. */
 static int32_t distance_inside(const int32_t v[3], const lmb_fixed_view *view, int plane)
 {
-    const int64_t to = plane < 3 ? (int64_t)GUARD * view->width * v[2] : (int64_t)GUARD * view->height * v[2],
+    const int64_t to = plane < 3 ? (int64_t)GUARD_WIDTHS * view->width * v[2]
+                                 : (int64_t)GUARD_WIDTHS * view->height * v[2],
                   own = (int64_t)view->focal * v[plane < 3 ? 0 : 1];
     return plane == 0 ? v[2] - 16 * view->near_units : (int32_t)((plane & 1 ? to + own : to - own) >> 5);
 }

@@ -1,14 +1,14 @@
 /* fixed_light.c: light at the visible vertices: the lamp's, and reflected light by links. Layer 8.
  *
- * Light is given as the radiosity of a white surface, in 1/65536 of the picture's white: at most LIGHT_MOST. */
+ * Light is given as the radiosity of a white surface, in 1/65536 of the picture's white: at most MAX_LIGHT. */
 #include <lambent/fixed.h>
 
 #include "fixed_part.h"
 #include "number.h"
 
-enum { LIGHT_MOST = 1 << 26, FULL = 32768, CELL_CORNERS = 8 };
+enum { MAX_LIGHT = 1 << 26, FULL_WEIGHT = 32768, CELL_CORNERS = 8 };
 
-/* The places around the lamp, with weights that sum to less than FULL. */
+/* The places around the lamp, with weights that sum to less than FULL_WEIGHT. */
 typedef struct cell_around {
     uint32_t word[CELL_CORNERS], bit[CELL_CORNERS], weight[CELL_CORNERS];
     int count;
@@ -72,7 +72,7 @@ NOINLINE void find_places(cell_around *out, const lmb_fixed *s, const int32_t at
         const int32_t free = zeros_above(sum);
         out->word[k] = place[k] >> 5;
         out->bit[k] = place[k] & 31u;
-        out->weight[k] = high_of(weight[k] * (FULL - 1u), reciprocal(sum << free)) >> (30 - free);
+        out->weight[k] = high_of(weight[k] * (FULL_WEIGHT - 1u), reciprocal(sum << free)) >> (30 - free);
     }
 }
 
@@ -112,7 +112,7 @@ static void set_lamp(lamp_now *out, const lmb_fixed *s, const lmb_fixed_lamp *la
     }
 }
 
-/* The lamp's cone fall-off by the cosine to the axis: smoothstep, 0 .. FULL - 1. */
+/* The lamp's cone fall-off by the cosine to the axis: smoothstep, 0 .. FULL_WEIGHT - 1. */
 static uint32_t cone_of(const lamp_now *l, int32_t cosine)
 {
     const int32_t over = cosine - l->lamp->cos_outer;
@@ -120,10 +120,10 @@ static uint32_t cone_of(const lamp_now *l, int32_t cosine)
         return 0;
     }
     if (cosine >= l->lamp->cos_inner) {
-        return FULL - 1;
+        return FULL_WEIGHT - 1;
     }
     const uint32_t t = ((uint32_t)over * l->per_cone) >> 15;
-    return (((t * t) >> 15) * (3u * FULL - 2u * t)) >> 15;
+    return (((t * t) >> 15) * (3u * FULL_WEIGHT - 2u * t)) >> 15;
 }
 
 static void direct_at(uint32_t out[3], const lamp_now *l, const fixed_receiver *r, const uint32_t *seen)
@@ -157,8 +157,8 @@ static void direct_at(uint32_t out[3], const lamp_now *l, const fixed_receiver *
     const int32_t up = 2 * (k + l->s->units_log2) - 32 - l->bits;
     for (int c = 0; c < 3; ++c) {
         const uint32_t v = high_of(e, l->colour[c] << 16);
-        out[c] = up <= -32 ? 0 : up <= 0 ? v >> -up : up > 26 || v > (uint32_t)LIGHT_MOST >> up ? LIGHT_MOST : v << up;
-        out[c] = out[c] > LIGHT_MOST ? LIGHT_MOST : out[c];
+        out[c] = up <= -32 ? 0 : up <= 0 ? v >> -up : up > 26 || v > (uint32_t)MAX_LIGHT >> up ? MAX_LIGHT : v << up;
+        out[c] = out[c] > MAX_LIGHT ? MAX_LIGHT : out[c];
     }
 }
 
@@ -168,7 +168,7 @@ static void direct_at(uint32_t out[3], const lamp_now *l, const fixed_receiver *
 static uint32_t reflected(uint32_t v, uint32_t root)
 {
     const uint32_t albedo = root * root;
-    v = v > LIGHT_MOST ? LIGHT_MOST : v;
+    v = v > MAX_LIGHT ? MAX_LIGHT : v;
     return high_of(v << 4, (albedo + (albedo >> 7)) << 12);
 }
 

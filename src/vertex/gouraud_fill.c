@@ -199,7 +199,7 @@ typedef struct gouraud_plane {
 } gouraud_plane;
 
 /* Per px: up to this, values fit 31 bits at any distance between a pixel and a corner. */
-#define GENTLE 262144.0f
+#define MAX_GENTLE_STEP 262144.0f
 
 /* All but the integers. */
 static void set_plane(gouraud_plane *out, const gouraud_corner c[3], float f0, float f1, float f2, float per_area,
@@ -217,7 +217,7 @@ static void set_whole_plane(gouraud_plane *out, const gouraud_corner c[3], float
                             float max)
 {
     set_plane(out, c, f0, f1, f2, per_area, max);
-    out->is_gentle = absf(out->per_x) < GENTLE && absf(out->per_y) < GENTLE;
+    out->is_gentle = absf(out->per_x) < MAX_GENTLE_STEP && absf(out->per_y) < MAX_GENTLE_STEP;
     if (out->is_gentle) {
         out->step_x = (int32_t)out->per_x;
         out->step_y = (int32_t)out->per_y;
@@ -260,22 +260,23 @@ static inline gouraud_ramp ramp_of(const gouraud_plane *p, const gouraud_corner 
 
 /* Colours: 5, 6 and 5 bits, with 11 fraction bits. Red lies above blue in one word, because sums of blue stay within 16
  * bits. */
-enum { FRACTION = 11 };
+enum { COLOUR_FRACTION_BITS = 11 };
 
 static uint32_t red_and_blue(int32_t red, int32_t blue) { return ((uint32_t)red << 16) + (uint32_t)blue; }
 
 static uint16_t pixel_of_channels(uint32_t red_blue, uint32_t green)
 {
-    return (uint16_t)((red_blue >> 16 & 0xf800u) | (green & 0x1f800u) >> (FRACTION - 5) |
-                      (red_blue & 0xffffu) >> FRACTION);
+    return (uint16_t)((red_blue >> 16 & 0xf800u) | (green & 0x1f800u) >> (COLOUR_FRACTION_BITS - 5) |
+                      (red_blue & 0xffffu) >> COLOUR_FRACTION_BITS);
 }
 
 /* Bayer's 4 x 4 matrix (1973) in sixteenths, less half of one: for red and for blue. */
-#define BOTH(a) ((uint32_t)(a) << 16 | (uint32_t)(a))
-static const uint32_t dither_table[4][4] = {{BOTH(64), BOTH(1088), BOTH(320), BOTH(1344)},
-                                            {BOTH(1600), BOTH(576), BOTH(1856), BOTH(832)},
-                                            {BOTH(448), BOTH(1472), BOTH(192), BOTH(1216)},
-                                            {BOTH(1984), BOTH(960), BOTH(1728), BOTH(704)}};
+#define IN_BOTH_HALVES(a) ((uint32_t)(a) << 16 | (uint32_t)(a))
+static const uint32_t dither_table[4][4] = {
+    {IN_BOTH_HALVES(64), IN_BOTH_HALVES(1088), IN_BOTH_HALVES(320), IN_BOTH_HALVES(1344)},
+    {IN_BOTH_HALVES(1600), IN_BOTH_HALVES(576), IN_BOTH_HALVES(1856), IN_BOTH_HALVES(832)},
+    {IN_BOTH_HALVES(448), IN_BOTH_HALVES(1472), IN_BOTH_HALVES(192), IN_BOTH_HALVES(1216)},
+    {IN_BOTH_HALVES(1984), IN_BOTH_HALVES(960), IN_BOTH_HALVES(1728), IN_BOTH_HALVES(704)}};
 
 /* A 16-bit depth: the four lowest bits of the exponent and twelve of the fraction, so that relative precision is the
  * same near and far. */
