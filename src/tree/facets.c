@@ -18,6 +18,8 @@
 
 #define MAX_HIDDEN_ROWS 1.0f /* rows of pixels: if more of a part does not show, something hides it */
 #define MAX_SMALL_SHARE 0.5f /* of a cell: a triangle that covers less is small */
+#define SPECK_SHARE 0.5f /* of the pixels that show a triangle: if it covers less, it represents others, too */
+#define STEEP_FACET 0.35f /* cosine to the light: at a sharp edge, steeper planes reach far past their triangles */
 
 /* --- at the tree's building --------------------------------------------------------------------------------------- */
 
@@ -62,7 +64,8 @@ void lmb_facets_mark(lmb_texel *inout, const lmb_tile *t, int own, int first, in
         const int steps = absi(k % LMB_TILE - own % LMB_TILE) + absi(k / LMB_TILE - own / LMB_TILE);
         const lmb_vec3 *longer = length3(reach[0]) + length3(reach[1]) > length3(own_reach[0]) + length3(own_reach[1])
                                      ? reach : own_reach;
-        several |= dot3(normal, n) >= TILE_COS_25 || !go_on(longer, sub3(p, at), steps) ||
+        several |= minf(absf(dot3(ray, normal)), absf(dot3(ray, n))) < STEEP_FACET || dot3(normal, n) >= TILE_COS_25 ||
+                   !go_on(longer, sub3(p, at), steps) ||
                    (other >= 0 && !in_plane(tile_vec(t->face, other), n, sub3(p, tile_vec(t->position, other))));
         other = k;
         cosine = minf(cosine, dot3(normal, n));
@@ -247,12 +250,15 @@ static int whole_part(lmb_facet *out, lmb_triangle *t, const lmb_facets *f, uint
     return 1;
 }
 
-/* Lists the surfaces. The map's pixels miss triangles that are finer. The small ones that show send the light of those:
- * the factor is the area of the pixels in which small ones show, divided by the area that these cover. */
+/* Lists the surfaces. The map's pixels miss triangles that are finer. Specks fill their pixels; the other small ones
+ * that show send the light of those that are missed: the factor is the area of the pixels in which small ones show,
+ * divided by the area that these cover. */
 static void list_surfaces(lmb_facets *f)
 {
     const int pixels = f->each * f->each;
     const float per_pixel = 1.0f / (float)pixels;
+    const lmb_texel *texel = tree_texel(f->tree, f->at.face, f->at.x, f->at.y);
+    const lmb_vec3 ray = facets_extent_of(texel, &f->tree->view[f->at.face], f->tree->size).ray;
     float covered = 0.0f, shown = 0.0f;
     uint64_t done = 0;
     f->surfaces = 0;
@@ -274,9 +280,11 @@ static void list_surfaces(lmb_facets *f)
             s->on = t.corner[0];
             s->pixels = own;
             s->id = f->id[k];
-            if (share < MAX_SMALL_SHARE) {
+            const float here = (float)count_bits_64(own) * per_pixel;
+            s->is_speck = share < SPECK_SHARE * here && absf(dot3(ray, part.normal)) > STEEP_FACET;
+            if (share < MAX_SMALL_SHARE && !s->is_speck) {
                 covered += share;
-                shown += (float)count_bits_64(own) * per_pixel;
+                shown += here;
             }
         }
     }
@@ -310,6 +318,22 @@ void lmb_facets_open(lmb_facets *out, const lmb_tree *tree, const lmb_scene *sce
     out->left = out->surfaces > 0 ? out->surface[0].pixels : 0;
 }
 
+/* Pixels x0 .. x1 - 1 of a row, in the plane of a speck: neighbours that no pixel shows continue it. */
+static void spread_speck(lmb_facet *out, const lmb_facets *f, int x0, int y, int x1)
+{
+    const lmb_view *v = &f->tree->view[f->at.face];
+    const float size = 0.5f * (float)(f->tree->size * f->each);
+    const lmb_facet_surface *s = &f->surface[f->at_surface];
+    for (int i = 0; i < 4; ++i) {
+        const float x = (float)(f->at.x * f->each + (i == 1 || i == 2 ? x1 : x0)) / size - 1.0f,
+                    up = 1.0f - (float)(f->at.y * f->each + y + (i < 2)) / size;
+        out->corner[i] = footprint_over(v, s->on, s->normal, x * v->half_width, up * v->half_height);
+    }
+    out->normal = s->normal;
+    out->corners = 4;
+    set_middle(out);
+}
+
 /* Cuts the part to the next run of pixels that show it. */
 static void cut_to_run(lmb_facet *inout, lmb_facets *f, const lmb_triangle *t)
 {
@@ -322,7 +346,11 @@ static void cut_to_run(lmb_facet *inout, lmb_facets *f, const lmb_triangle *t)
     const uint64_t run = ((uint64_t)2 << past) - ((uint64_t)1 << k);
     float area;
     lmb_triangle_shape(&inout->normal, &area, t);
-    cut_out(inout, f, t, k % each, k / each, past % each + 1, k / each + 1);
+    if (f->surface[f->at_surface].is_speck) {
+        spread_speck(inout, f, k % each, k / each, past % each + 1);
+    } else {
+        cut_out(inout, f, t, k % each, k / each, past % each + 1, k / each + 1);
+    }
     turn_to_light(inout, &f->tree->view[f->at.face]);
     clip_by_others(inout, f, f->at_surface, run);
     f->left &= ~run;
@@ -334,11 +362,11 @@ static void next_part(lmb_facet *out, lmb_facets *f)
     const lmb_facet_surface *s = &f->surface[f->at_surface];
     lmb_triangle t;
     whole_part(out, &t, f, s->id);
-    const float more = out->area * out->per_area < MAX_SMALL_SHARE ? f->more : 1.0f;
+    const float more = out->area * out->per_area < MAX_SMALL_SHARE && !s->is_speck ? f->more : 1.0f;
     if (f->left == s->pixels && lacks_pixels(out, f, s->pixels)) {
         clip_by_others(out, f, f->at_surface, s->pixels);
     }
-    if (f->left != s->pixels || lacks_pixels(out, f, s->pixels)) {
+    if (s->is_speck || f->left != s->pixels || lacks_pixels(out, f, s->pixels)) {
         cut_to_run(out, f, &t);
     } else {
         f->left = 0;

@@ -35,7 +35,8 @@ static inline facets_extent facets_extent_of(const lmb_texel *t, const lmb_view 
 }
 
 /* Marks a texel if its block of each x each pixels of the map, from pixel `first` of the tile on, shows several planes.
- * Two planes that meet at a sharp edge do not count: they are a crease. own: the texel's pixel; size: of the tree. */
+ * Two planes that meet at a sharp edge are a crease and do not count, unless one is steep. own: the texel's pixel;
+ * size: of the tree. */
 void lmb_facets_mark(lmb_texel *inout, const lmb_tile *t, int own, int first, int32_t each, const lmb_view *v,
                      int32_t size);
 
@@ -52,6 +53,7 @@ typedef struct lmb_facet_surface {
     lmb_vec3 normal, on; /* its plane; the normal is on the lit side */
     uint64_t pixels;     /* of the block that show it */
     uint32_t id;
+    int is_speck; /* covers less than half of these pixels, and is not steep */
 } lmb_facet_surface;
 
 typedef struct lmb_facets {

@@ -656,6 +656,39 @@ static uint64_t case_cut(int variant)
     return hash_frame(GOLDEN_START, &f);
 }
 
+#if LMB_FACETS && !defined(LMB_CONFIG_TINY)
+/* A pillar of 19 sides on a floor. */
+static void make_pillar(void)
+{
+    float *to = soup_positions, rim[20][2];
+    for (int i = 0; i <= 19; ++i) {
+        const float t = 0.21f * (float)(i % 19 - 9), per = 0.4f / (1.0f + t * t);
+        rim[i][0] = (1.0f - t * t) * per;
+        rim[i][1] = 2.0f * t * per;
+    }
+    const float floor_corner[2][9] = {{-2, -1, -2, -2, -1, 2, 2, -1, 2}, {-2, -1, -2, 2, -1, 2, 2, -1, -2}};
+    memcpy(to, floor_corner, sizeof floor_corner);
+    for (int i = 0; i < 38; ++i) {
+        const float *a = rim[i / 2], *b = rim[i / 2 + 1];
+        const float side[9] = {a[0], -1, a[1], b[0], i & 1 ? -1.0f : 1.0f, b[1], i & 1 ? b[0] : a[0], 1,
+                               i & 1 ? b[1] : a[1]};
+        memcpy(to + 18 + 9 * i, side, sizeof side);
+    }
+    soup_instances[1].material = 0;
+    lmb_scene_bounds(&soup.bounds_min, &soup.bounds_max, &soup);
+}
+
+/* Texels of 8 x 8 pixels of the map, in which many sides show. */
+static uint64_t case_facets(int variant)
+{
+    lmb_frame f = soup_frame(1, 8);
+    make_pillar();
+    f.shadow_map = variant;
+    f.occlusion = LMB_OCCLUSION_EXACT;
+    return hash_frame(GOLDEN_START, &f);
+}
+#endif
+
 #ifndef LMB_CONFIG_TINY
 static uint64_t lattice[10 * 8 * (sizeof(lmb_lattice_tile) / 8) + 1024] GOLDEN_ALIGNED;
 

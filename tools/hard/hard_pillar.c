@@ -168,12 +168,12 @@ void hard_pillar(hard_list *list)
     static const pillar_set set[2] = {{{8, 28, 256}, {3, 15, 45}, {0, 33, 71}, 0.3, 1.8},
                                       {{11, 40, 150}, {6, 22, 60}, {12, 50, 200}, 0.22, 1.3}};
     static const pillar_row rows[2 * THINGS] = {
-        {CYLINDER, 0, {"floor by pillars: trim", "rmse", "brightest pixel"}, {0.081, 0.21, 4.2}},
-        {CONE, 0, {"floor by cones: trim", "rmse", "brightest pixel"}, {0.078, 0.253, 4.2}},
-        {BALL, 0, {"floor by balls: trim", "rmse", "brightest pixel"}, {0.142, 0.322, 245}},
-        {CYLINDER, 1, {"held out pillars: trim", "rmse", "brightest pixel"}, {0.126, 0.4, 1.5}},
-        {CONE, 1, {"held out cones: trim", "rmse", "brightest pixel"}, {0.128, 0.72, 1.8}},
-        {BALL, 1, {"held out balls: trim", "rmse", "brightest pixel"}, {0.18, 0.345, 1.5}},
+        {CYLINDER, 0, {"floor by pillars: trim", "rmse", "brightest pixel"}, {0.072, 0.19, 4.2}},
+        {CONE, 0, {"floor by cones: trim", "rmse", "brightest pixel"}, {0.075, 0.205, 2.3}},
+        {BALL, 0, {"floor by balls: trim", "rmse", "brightest pixel"}, {0.091, 0.15, 2}},
+        {CYLINDER, 1, {"held out pillars: trim", "rmse", "brightest pixel"}, {0.111, 0.36, 1.5}},
+        {CONE, 1, {"held out cones: trim", "rmse", "brightest pixel"}, {0.115, 0.6, 1.8}},
+        {BALL, 1, {"held out balls: trim", "rmse", "brightest pixel"}, {0.119, 0.215, 1.5}},
     };
     for (int i = 0; i < 2 * THINGS; ++i) {
         const pillar_row *r = &rows[i];
