@@ -158,13 +158,17 @@ lmb_status lmb_gather_tile(lmb_irradiance *inout, const lmb_kernels *kernels, lm
  * light of a point a thousandth of that size above the plane.
  * lmb_triangle_factor: the same for a triangle.
  * lmb_polygon_factor: the form factor itself, per unit of exitance, of a convex polygon of 3 .. 8 corners,
- * counter-clockwise on the side that emits light; fewer or more: 0. */
+ * counter-clockwise on the side that emits light; fewer or more: 0.
+ * lmb_triangle_vector: the form factor of a triangle along each axis, signed, corners counter-clockwise around the unit
+ * vector `axis`. The dot product with any direction is the form factor along it, so one call serves light that is kept
+ * by direction. (0, 0, 0) from behind. Missing, like the two above, in builds without trees. */
 float lmb_disc_factor(lmb_vec3 at, lmb_vec3 normal, lmb_vec3 centre, lmb_vec3 axis, float area);
 float lmb_quad_factor(lmb_vec3 at, lmb_vec3 face, lmb_vec3 normal, lmb_vec3 centre, lmb_vec3 axis, lmb_vec3 u,
                       lmb_vec3 v);
 float lmb_triangle_factor(lmb_vec3 at, lmb_vec3 face, lmb_vec3 normal, const lmb_vec3 corner[3], lmb_vec3 axis);
 float lmb_polygon_factor(lmb_vec3 at, lmb_vec3 face, lmb_vec3 normal, const lmb_vec3 *corner, int corners,
                          lmb_vec3 axis);
+lmb_vec3 lmb_triangle_vector(lmb_vec3 at, lmb_vec3 face, const lmb_vec3 corner[3], lmb_vec3 axis);
 
 #ifdef __cplusplus
 }

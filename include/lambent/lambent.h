@@ -8,6 +8,7 @@
 #include "surface.h"
 #include "scene.h"
 #include "raster.h"
+#include "lookup.h"
 #include "bins.h"
 #include "map.h"
 #include "occlusion.h"

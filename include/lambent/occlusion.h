@@ -141,6 +141,14 @@ lmb_status lmb_bvh_build(lmb_bvh *inout, const lmb_scene *scene);
 uint64_t lmb_occluded_tile(const lmb_kernels *kernels, lmb_traversal *traversal, const lmb_bvh *bvh,
                            const lmb_tile *tile, uint64_t pixels, lmb_vec3 at, float noise);
 
+/* lmb_occluded_again: the same answer, for calls with points that lie close together and pixels that lie far apart:
+ * tests for pixel k first the triangle that blocked it last.
+ *
+ *   own  of pixel k: that triangle, as in lmb_traversal; updated. Begin with zeros, for this BVH. NULL: as
+ *        lmb_occluded_tile. */
+uint64_t lmb_occluded_again(const lmb_kernels *kernels, lmb_traversal *traversal, uint32_t own[LMB_TILE_PIXELS],
+                            const lmb_bvh *bvh, const lmb_tile *tile, uint64_t pixels, lmb_vec3 at, float noise);
+
 /* lmb_place_noise: how far, m, rounding may have moved a point off its surface, if a ray from `distance` m away found
  * it: a millionth of the distance plus a quarter of a millionth of the largest coordinate. distance 0: the mean of a
  * triangle's corners.

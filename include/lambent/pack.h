@@ -78,6 +78,12 @@ enum {
 };
 #define LMB_PACK_NONE 0xffffffffu
 
+/* Words per record of each kind, indexed by LMB_PACK_SCENE and so on; 0: the kind has no records. */
+#define LMB_PACK_WORDS_EACH                                                                                    \
+    {0, LMB_PACK_SCENE_WORDS, LMB_PACK_MESH_WORDS, 0, 0, LMB_PACK_MATERIAL_WORDS, LMB_PACK_TEXTURE_WORDS, 0,   \
+     LMB_PACK_INSTANCE_WORDS, LMB_PACK_LIGHT_WORDS, LMB_PACK_CAMERA_WORDS, LMB_PACK_NODE_WORDS,                \
+     LMB_PACK_TRACK_WORDS, 1, 0, 0, 0}
+
 /* A file in place, checked by lmb_pack_open. */
 typedef struct lmb_pack {
     const uint32_t *part[LMB_PACK_KINDS]; /* by kind; NULL: none */
@@ -121,6 +127,14 @@ lmb_status lmb_pack_scene(lmb_scene *out, const lmb_pack *pack, void *memory, si
  * from the rotations. Cost: the nodes above each instance and light that moves, some 200 operations each; and one pass
  * over all vertices if instances moved. */
 lmb_status lmb_pack_pose(lmb_scene *inout, const lmb_pack *pack, float time_s);
+
+/* lmb_pack_place_instance, lmb_pack_place_light: the same for one instance or light, in a copy of yours.
+ *
+ *   inout  instance or light i of a scene from lmb_pack_scene. Only to_world, or position and direction, are set; if
+ *          nothing moves it, it stays unchanged. Revisions are yours to raise.
+ * Returns LMB_OK, LMB_ERR_ARG (null, or no record i) or LMB_ERR_SCENE as lmb_pack_pose: then `inout` is unchanged. */
+lmb_status lmb_pack_place_instance(lmb_instance *inout, const lmb_pack *pack, uint32_t i, float time_s);
+lmb_status lmb_pack_place_light(lmb_light *inout, const lmb_pack *pack, uint32_t i, float time_s);
 
 /* lmb_pack_view: the view of camera `camera` at a time, on a frame of square pixels.
  *

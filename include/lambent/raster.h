@@ -71,11 +71,14 @@ extern "C" {
  * lmb_kernels_at: backend i, from 0, the best first and "scalar" last; NULL past the last and for i < 0.
  * lmb_kernels_named: "scalar", "sse2", "avx2", "avx512", "neon" or "simd128"; NULL if the build, the processor or the
  * system lacks it.
- * lmb_kernels_name: that name. */
+ * lmb_kernels_name: that name.
+ * lmb_kernels_built: the name of backend i of this build, the best first, whether or not this processor runs it; NULL
+ * past the last and for i < 0. */
 const lmb_kernels *lmb_kernels_pick(void);
 const lmb_kernels *lmb_kernels_at(int32_t i);
 const lmb_kernels *lmb_kernels_named(const char *name);
 const char *lmb_kernels_name(const lmb_kernels *kernels);
+const char *lmb_kernels_built(int32_t i);
 
 /* lmb_draw: draw triangles with ids first_id .. first_id + count - 1 into a window.
  *

@@ -84,6 +84,11 @@ enum {
     LMB_TRANSFER_PARTS = 16,   /* parts of one triangle's light that wait to be halved */
     LMB_TRANSFER_MAX_HALVINGS = 40 /* of a triangle; pieces below are not lit */
 };
+/* Words per entry of each section. */
+#define LMB_TRANSFER_WORDS_EACH                                                                                 \
+    {LMB_TRANSFER_SURFACE_WORDS, 1, 1, 1, LMB_TRANSFER_CORNER_WORDS, LMB_TRANSFER_RECEIVER_WORDS, 1,            \
+     LMB_TRANSFER_BLEND_WORDS, LMB_TRANSFER_CLUSTER_WORDS, LMB_TRANSFER_CLUSTER_LINK_WORDS,                     \
+     LMB_TRANSFER_COARSE_WORDS, 1, LMB_TRANSFER_MOVING_WORDS, LMB_TRANSFER_GRID_WORDS, 1, LMB_TRANSFER_CUT_WORDS}
 #define LMB_TRANSFER_NONE      0xffffffffu
 #define LMB_TRANSFER_LEAF      0x80000000u /* in a halving: the other bits are an element, or the index of three
                                               corners */

@@ -3,11 +3,14 @@
 #
 #   awk -v PART=c -v VERSION=0.1.0 -f platform/amalgam/amalgam.awk src/*/*.c
 #
+# PART=names prints names that several sources define at file scope.
+#
 # The headers of src come first, each once. Then comes each .c file with the files that only a unit may include,
 # copied for each unit: verbs and formulas of a backend (lane_*.h, sums_*.h, target*.h, *.inl, *.inc), and headers
-# that hide calls missing in a build. If two units define the same name at file scope, the name gets the file's name
-# as a suffix (walk in clip.c: walk_clip). Macros of a unit are undefined at its end. Comments of kernels are printed
-# only in the plain C backend.
+# that hide calls missing in a build. What two units define at file scope, as the verbs, gets the unit's name as a
+# suffix (lane_add in isa_avx2.c: lane_add_avx2). To find it, definitions begin at column 0, with one name each; members
+# of structs have other names. Macros of a unit are undefined at its end. Comments of kernels are printed only in the
+# plain C backend.
 function fold(path,    part, n, i, kept, out) {
     n = split(path, part, "/")
     kept = 0
@@ -50,94 +53,53 @@ function load(path,    line) {
     if (lines[path] == 0) { print "amalgam.awk: no file " path > "/dev/stderr"; failed = 1; exit 1 }
 }
 
-# A line without strings and comments; `inside` is set if a comment continues.
-function bare(line,    out, at, rest) {
-    out = ""
-    while (line != "") {
-        if (inside) {
-            at = index(line, "*/")
-            if (!at) return out
-            inside = 0
-            line = substr(line, at + 2)
-            out = out " "
-        } else if (match(line, /"([^"\\]|\\.)*"|'([^'\\]|\\.)*'|\/\*|\/\//)) {
-            rest = substr(line, RSTART, 2)
-            out = out substr(line, 1, RSTART - 1)
-            if (rest == "//") return out
-            if (rest == "/*") inside = 1
-            else out = out "0"
-            line = substr(line, RSTART + (rest == "/*" ? 2 : RLENGTH))
-        } else {
-            return out line
-        }
-    }
-    return out
-}
-
 # --- names defined at file scope of a unit ---------------------------------------------------------------------------
 
 function add_name(name) {
-    if (name ~ /^(lmb_|LMB_)/ || name in keyword || name !~ /^[A-Za-z_]/ || (unit, name) in defines) return
+    if (name ~ /^(lmb_|LMB_)/ || name !~ /^[A-Za-z_]/ || name == "KERNEL" || (unit, name) in defines) return
     defines[unit, name] = 1
     ++units_with[name]
+    if (from == unit || unit == "headers") files_with[name] = files_with[name] " " (from == unit ? unit : from)
 }
 
-function end_statement() {
-    was = at_paren = after_equals = parens = tag_next = function_seen = 0
-    previous = before = ""
-}
-
-# One token of a unit's code; braces, parens: nesting depth.
-function scan(token,    word) {
-    word = token ~ /^[A-Za-z_]/
-    if (token == "{") {
-        if (++braces == 1) {
-            if (head_enum) in_enum = 1
-            want_constant = 1
-        }
-    } else if (token == "}") {
-        if (--braces == 0) {
-            in_enum = head_enum = 0
-            if (function_seen && !after_equals) end_statement()
-            previous = "}"
-            return
-        }
-    } else if (braces > 0) {
-        if (in_enum && braces == 1) {
-            if (token == ",") want_constant = 1
-            else if (word && want_constant) { add_name(token); want_constant = 0 }
-        }
-        return
-    } else if (token == "(") {
-        if (parens++ == 0 && previous ~ /^[A-Za-z_]/ && !function_seen && !after_equals && previous !~ /^(__attribute__|KERNEL|__declspec)$/) {
-            add_name(previous)
-            function_seen = 1
-        }
-        if (parens == 1 && previous == "KERNEL") function_seen = 1
-    } else if (token == ")") {
-        --parens
-    } else if (parens > 0) {
-        # parameters; for a pointer to a function, `(*name)`
-        if (word && parens == 1 && previous == "*" && before == "(") add_name(token)
-    } else if (token == ";" || token == "," || token == "[" || token == "=") {
-        if (previous ~ /^[A-Za-z_]/ && !function_seen && !after_equals) add_name(previous)
-        if (token == "=") after_equals = 1
-        if (token == ",") after_equals = 0
-        if (token == ";") { end_statement(); head_enum = 0 }
-    } else if (word) {
-        if (previous ~ /^(struct|union|enum)$/) tag = token
-        if (token == "enum") head_enum = 1
+# A line without comments.
+function bare(line,    at, end) {
+    if (inside) {
+        if (!sub(/^.*\*\//, "", line)) return ""
+        inside = 0
     }
-    if (token == "{" && tag != "") { add_name(tag) }
-    if (!(word && previous ~ /^(struct|union|enum)$/)) tag = ""
-    before = previous
-    previous = token
+    while ((at = index(line, "/*")) > 0) {
+        end = index(substr(line, at), "*/")
+        inside = !end
+        line = substr(line, 1, at - 1) (end ? " " substr(line, at + end + 1) : "")
+    }
+    return line
 }
 
-function tokens_of(line) {
-    while (match(line, /[A-Za-z_][A-Za-z_0-9]*|[0-9][A-Za-z_0-9.]*|->|[^ \t]/)) {
-        scan(substr(line, RSTART, RLENGTH))
-        line = substr(line, RSTART + RLENGTH)
+# Names in a line of code at column 0: functions, objects, types; and constants of an enum.
+function names_of_line(line,    word, n, i) {
+    if (line ~ /^(typedef )?enum/) in_enum = 1
+    if (in_enum) {
+        sub(/^.*\{/, "", line)
+        in_enum = line !~ /\}/
+        sub(/\}.*/, "", line)
+        gsub(/=[^,]*/, "", line)
+        n = split(line, word, /[ ,]+/)
+        for (i = 1; i <= n; ++i) add_name(word[i])
+    } else if (line ~ /^typedef (struct|union) [a-z_0-9]+ \{/) {
+        split(line, word, " ")
+        add_name(word[3])
+    } else if (line ~ /^\} [a-z_0-9]+;/ || line ~ /^typedef [a-z_0-9 ]+;/) {
+        sub(/;.*/, "", line)
+        sub(/.* /, "", line)
+        add_name(line)
+    } else if (line ~ /^[A-Za-z]/) {
+        gsub(/__attribute__\(\([a-z_]*\)\) |\(\*/, "", line)
+        if (match(line, /[A-Za-z_0-9]+[[(;)]/) || match(line, /[A-Za-z_0-9]+ =/)) {
+            line = substr(line, RSTART, RLENGTH)
+            sub(/[^A-Za-z_0-9]+$/, "", line)
+            add_name(line)
+        }
     }
 }
 
@@ -149,6 +111,7 @@ function gather(path,    i, line, to) {
         to = included(line, path)
         if (to == "") {
             own[++owns] = line
+            own_from[owns] = path
         } else if (is_own(to)) {
             if (to ~ /\.h$/ && to !~ /target/) {
                 if ((unit, to) in taken) continue
@@ -162,10 +125,10 @@ function gather(path,    i, line, to) {
 }
 
 function names_of_own(    i, line, goes_on, name) {
-    inside = braces = in_enum = head_enum = 0
-    end_statement()
+    in_enum = inside = 0
     for (i = 1; i <= owns; ++i) {
-        line = bare(own[i])
+        line = own[i]
+        from = own_from[i]
         if (goes_on || line ~ /^ *#/) {
             if (!goes_on && match(line, /^ *# *define +[A-Za-z_0-9]+/)) {
                 name = substr(line, RSTART, RLENGTH)
@@ -173,11 +136,10 @@ function names_of_own(    i, line, goes_on, name) {
                 macros[unit] = macros[unit] " " name
             }
             goes_on = line ~ /\\$/
-            continue
+        } else {
+            names_of_line(bare(line))
         }
-        tokens_of(line)
     }
-    if (braces != 0) { print "amalgam.awk: " unit ": braces " braces > "/dev/stderr"; failed = 1; exit 1 }
 }
 
 # A header of src, after the headers that it includes. Its names are never renamed.
@@ -196,16 +158,19 @@ function count_shared(    h, i) {
     unit = "headers"
     for (h = 1; h <= headers; ++h) {
         owns = 0
-        for (i = 1; i <= lines[header_order[h]]; ++i) own[++owns] = text[header_order[h], i]
+        for (i = 1; i <= lines[header_order[h]]; ++i) {
+            own[++owns] = text[header_order[h], i]
+            own_from[owns] = header_order[h]
+        }
         names_of_own()
     }
 }
 
 # --- output ----------------------------------------------------------------------------------------------------------
 
-# Renames tokens with the unit's suffix. Members of structs keep their names, after a dot or an arrow and in
-# declarations of structs in the unit.
-function renamed(line,    out, token, rest, before, was_inside) {
+# Adds the unit's suffix to names that other units define too, but not to members of structs, after a dot or an arrow.
+# Leaves out comments if `strip` is set.
+function renamed(line,    out, token, at) {
     out = ""
     while (line != "") {
         if (inside) {
@@ -216,38 +181,19 @@ function renamed(line,    out, token, rest, before, was_inside) {
             inside = 0
             continue
         }
-        if (!match(line, /[A-Za-z_][A-Za-z_0-9]*|[0-9][A-Za-z_0-9.]*|"([^"\\]|\\.)*"|'([^'\\]|\\.)*'|\/\*|\/\/|->|[^ \t]/)) return out line
+        if (!match(line, /[A-Za-z_][A-Za-z_0-9]*|[0-9][A-Za-z_0-9.]*|"([^"\\]|\\.)*"|'([^'\\]|\\.)*'|\/\*|->|[^ \t]/)) return out line
         token = substr(line, RSTART, RLENGTH)
-        before = substr(line, 1, RSTART - 1)
-        rest = substr(line, RSTART + RLENGTH)
-        out = out before
-        if (token == "/*") {
-            inside = 1
-            if (!strip) out = out token
-        } else if (token == "//") {
-            return out token rest
-        } else if ((unit, token) in defines && units_with[token] > 1 && last != "." && last != "->" &&
-                   !(struct_depth > 0 && last ~ /^([A-Za-z_].*|\*|,)$/ && rest ~ /^ *[;,\[:]/ && !pre)) {
-            out = out token ending
-        } else {
-            out = out token
-        }
-        if (!pre && token != "/*") {
-            if (token == "{") {
-                if (struct_depth > 0 || (depth == 0 && struct_head)) ++struct_depth
-                ++depth
-            }
-            if (token == "}") { --depth; if (struct_depth > 0) --struct_depth }
-            if (token == "struct" || token == "union") struct_head = 1
-            if (token == ";" || token == "(" || token == "=" || token == "}") struct_head = 0
-        }
-        if (token != "/*") last = token
-        line = rest
+        out = out substr(line, 1, RSTART - 1)
+        line = substr(line, RSTART + RLENGTH)
+        inside = token == "/*"
+        if (!inside || !strip) out = out token
+        if ((unit, token) in defines && units_with[token] > 1 && last != "." && last != "->") out = out ending
+        if (!inside) last = token
     }
     return out
 }
 
-function print_unit(    i, line, goes_on, n, name, gone) {
+function print_unit(    i, line, n, name, gone) {
     ending = unit
     sub(/.*\//, "", ending)
     sub(/\.c$/, "", ending)
@@ -255,7 +201,7 @@ function print_unit(    i, line, goes_on, n, name, gone) {
     ending = "_" ending
     strip = unit ~ /isa_/ && unit !~ /isa_(pick|scalar)/
     print "\n/* ==== " unit " ==== */"
-    inside = depth = struct_depth = struct_head = 0
+    inside = 0
     last = ""
     blank = 1
     for (i = 1; i <= owns; ++i) {
@@ -263,8 +209,6 @@ function print_unit(    i, line, goes_on, n, name, gone) {
         if (line ~ /^ *# *include +<(lambent\/|stddef|stdint|string|float)/) continue
         if (line == "" && blank) continue
         blank = line == ""
-        pre = goes_on || (!inside && line ~ /^ *#/)
-        goes_on = pre && line ~ /\\$/
         line = renamed(line)
         if (strip) sub(/ +$/, "", line)
         if (!strip || line != "") print line
@@ -342,10 +286,6 @@ function find_switches(    path, i, says) {
 }
 
 BEGIN {
-    n = split("auto break case char const continue default do double else enum extern float for goto if inline int long " \
-              "register return short signed sizeof static struct switch typedef union unsigned void volatile while " \
-              "int8_t uint8_t int16_t uint16_t int32_t uint32_t int64_t uint64_t size_t NULL __attribute__ KERNEL", word, " ")
-    for (i = 1; i <= n; ++i) keyword[word[i]] = 1
     load("LICENSE")
     path = "include/lambent/layout.h"
     load(path)
@@ -368,6 +308,10 @@ BEGIN {
         names_of_own()
     }
     count_shared()
+    if (PART == "names") {
+        for (name in files_with) if (split(files_with[name], word, " ") > 1) print name ":" files_with[name]
+        exit failed
+    }
     print_top("lambent.c, the whole library")
     print "#include \"lambent.h\"\n"
     print "#if defined(__clang__)\n#pragma clang diagnostic ignored \"-Wunused-function\" /* verbs that some kernels lack */\n#endif"

@@ -30,7 +30,7 @@ PAGE_SIDE := -z stack-size=16 --global-base
 # Optimises hot code of frames for speed; the rest, and code that runs once a scene or for few pixels, for size.
 PAGE_FAST := src/raster/% src/transfer/% src/occlusion/% src/direct/shadow.c
 PAGE_ONCE := src/occlusion/build.c src/occlusion/occlude.c src/raster/texture.c src/raster/bins.c src/raster/cluster.c src/occlusion/occluded.c src/occlusion/hull.c src/occlusion/sun.c \
-             $(patsubst %,src/raster/%.c,clip draw draw_one fill paint plane resolve setup target triangle) \
+             $(patsubst %,src/raster/%.c,clip draw draw_one fill lookup paint plane resolve setup target triangle) \
              src/transfer/transfer.c $(patsubst %,src/transfer/transfer_%.c,air collect light many_lights materials send)
 page_opt   = $(or $(PAGE_OPT),$(if $(filter $(PAGE_FAST),$(filter-out $(PAGE_ONCE),$(1))),-O2,-Oz))
 

@@ -2,7 +2,7 @@
 #ifndef LMB_BASE_CODEC_H
 #define LMB_BASE_CODEC_H
 
-#include <stdint.h>
+#include <lambent/numbers.h>
 
 #include "exact.h"
 
@@ -11,9 +11,5 @@ extern const float lmb_srgb_linear[256];
 extern const float lmb_srgb_threshold[256]; /* [c]: the smallest float that is coded c or more; 0 for c = 0 */
 
 static inline float lmb_srgb_decode(uint8_t code) { return lmb_srgb_linear[code]; }
-
-/* lmb_srgb_encode: the code nearest to the curve at `linear`, for every float: no float lies on a tie. Below 0 and NaN
- * give 0, above 1 gives 255. */
-uint8_t lmb_srgb_encode(float linear);
 
 #endif

@@ -46,16 +46,16 @@ typedef struct {
     const uint8_t *from;
     size_t row; /* bytes */
     halve_taps x, y;
-} box;
+} mip_box;
 
-typedef void (*mean_of_codes)(uint8_t out[4], const box *b);
+typedef void (*mean_of_codes)(uint8_t out[4], const mip_box *b);
 
-static const uint8_t *box_texel(const box *b, int32_t i, int32_t j) { return b->from + (size_t)j * b->row + 4 * i; }
+static const uint8_t *box_texel(const mip_box *b, int32_t i, int32_t j) { return b->from + (size_t)j * b->row + 4 * i; }
 
-static int32_t box_part(const box *b, int32_t i, int32_t j) { return b->x.part[i] * b->y.part[j]; }
+static int32_t box_part(const mip_box *b, int32_t i, int32_t j) { return b->x.part[i] * b->y.part[j]; }
 
 /* The rounded mean of one channel's codes, in integers of at most 8191 * 8191 * 255. */
-static uint8_t mean_code(const box *b, int channel)
+static uint8_t mean_code(const mip_box *b, int channel)
 {
     const int64_t whole = (int64_t)b->x.whole * b->y.whole;
     int64_t sum = whole / 2;
@@ -68,7 +68,7 @@ static uint8_t mean_code(const box *b, int channel)
 
 /* Colour weighted by alpha, so that invisible texels do not bleed. If all are invisible, each has weight 1. Alpha is
  * linear. */
-static void mean_colour(uint8_t out[4], const box *b)
+static void mean_colour(uint8_t out[4], const mip_box *b)
 {
     float weights = 0.0f, sum[3] = {0.0f, 0.0f, 0.0f};
     int visible = 0;
@@ -91,7 +91,7 @@ static void mean_colour(uint8_t out[4], const box *b)
 }
 
 /* The rounded mean of the codes; a lookup makes the vector unit length. */
-static void mean_vector(uint8_t out[4], const box *b)
+static void mean_vector(uint8_t out[4], const mip_box *b)
 {
     for (int k = 0; k < 4; ++k)
         out[k] = mean_code(b, k);
@@ -101,7 +101,7 @@ static void mean_vector(uint8_t out[4], const box *b)
 static void half_level(uint8_t *to, const uint8_t *from, int32_t width, int32_t height, mean_of_codes mean)
 {
     const int32_t to_width = maxi(width / 2, 1), to_height = maxi(height / 2, 1);
-    box b;
+    mip_box b;
     b.row = (size_t)width * 4;
     for (int32_t y = 0; y < to_height; ++y) {
         b.y = halve_axis(height, y);

@@ -13,7 +13,7 @@ enum { TRANSLATION, ROTATION, SCALE };
 enum { STEP, LINEAR, CUBIC };
 enum { N_TRANSLATION = 4, N_ROTATION = 7, N_SCALE = 11 }; /* words of a node's record */
 
-#define STRAIGHT 0.9995f /* cosine of half the rotation; above it, linear interpolation is as good */
+#define MAX_LERP_COSINE 0.9995f /* cosine of half the rotation; above it, linear interpolation is as good */
 
 /* --- between keys ------------------------------------------------------------------------------------------------- */
 
@@ -66,7 +66,7 @@ static void linear(float *out, const track *t, uint32_t key, float u)
     for (int i = 0; t->size == 4 && i < 4; ++i) {
         dot += a[i] * b[i];
     }
-    if (t->size == 4 && absf(dot) < STRAIGHT) {
+    if (t->size == 4 && absf(dot) < MAX_LERP_COSINE) {
         const float angle = lmb_acos(absf(dot)), per = 1.0f / lmb_sin(angle);
         from = lmb_sin((1.0f - u) * angle) * per;
         to = lmb_sin(u * angle) * per;
@@ -136,10 +136,10 @@ static int to_unit(lmb_vec3 *v)
     return 1;
 }
 
-#define FLAT 1e-6f /* of the longest column: a shorter column is a scale of 0 after rounding */
+#define MIN_COLUMN_SHARE 1e-6f /* of the longest column: a shorter column is a scale of 0 after rounding */
 
 /* Normalizes column c; returns 0 if the column has no length. */
-static int direction_of(lmb_vec3 *out, const lmb_mat4 *m, int c)
+static int axis_direction(lmb_vec3 *out, const lmb_mat4 *m, int c)
 {
     float longest = 0.0f, own = 0.0f;
     *out = column(m, c);
@@ -147,7 +147,7 @@ static int direction_of(lmb_vec3 *out, const lmb_mat4 *m, int c)
         longest = i % 4 != 3 ? maxf(longest, absf(m->m[i])) : longest;
         own = i % 4 != 3 && i / 4 == c ? maxf(own, absf(m->m[i])) : own;
     }
-    return own > FLAT * longest && to_unit(out);
+    return own > MIN_COLUMN_SHARE * longest && to_unit(out);
 }
 
 /* Normalizes the columns. A column without length becomes perpendicular to the others, or an axis. */
@@ -209,7 +209,7 @@ static void put_above(lmb_mat4 *inout, const lmb_mat4 *a)
 
 /* A node's transform to the world, or only its rotations if `turns`. Returns 0 if a transform on the path is
  * invalid. */
-static int way_of(lmb_mat4 *out, const lmb_pack *p, uint32_t node, float time_s, int turns)
+static int node_to_world(lmb_mat4 *out, const lmb_pack *p, uint32_t node, float time_s, int turns)
 {
     const uint32_t *w = lmb_pack_record(p, LMB_PACK_NODES, node);
     int all = local(out, p, w, time_s, turns);
@@ -237,38 +237,57 @@ uint32_t lmb_pack_node_of(const lmb_pack *p, int kind, uint32_t i)
     return lmb_pack_record(p, kind, i)[word];
 }
 
-int lmb_pack_place_instance(lmb_instance *inout, const lmb_pack *p, uint32_t i, float time_s)
+static int has_record(const lmb_pack *p, int kind, uint32_t i)
 {
+    return p != NULL && p->data != NULL && i < p->count[kind];
+}
+
+lmb_status lmb_pack_place_instance(lmb_instance *inout, const lmb_pack *p, uint32_t i, float time_s)
+{
+    if (inout == NULL || !has_record(p, LMB_PACK_INSTANCES, i)) {
+        return LMB_ERR_ARG;
+    }
     const uint32_t node = lmb_pack_node_of(p, LMB_PACK_INSTANCES, i);
-    return node == LMB_PACK_NONE || way_of(&inout->to_world, p, node, time_s, 0);
+    lmb_mat4 to_world;
+    if (node != LMB_PACK_NONE) {
+        if (!node_to_world(&to_world, p, node, time_s, 0)) {
+            return LMB_ERR_SCENE;
+        }
+        inout->to_world = to_world;
+    }
+    return LMB_OK;
 }
 
 /* A light points along the node's -Z. If a scale of 0 leaves no length there, the direction comes from the rotations. A
  * point light does not use a direction. */
-int lmb_pack_place_light(lmb_light *inout, const lmb_pack *p, uint32_t i, float time_s)
+lmb_status lmb_pack_place_light(lmb_light *inout, const lmb_pack *p, uint32_t i, float time_s)
 {
+    if (inout == NULL || !has_record(p, LMB_PACK_LIGHTS, i)) {
+        return LMB_ERR_ARG;
+    }
     const uint32_t node = lmb_pack_node_of(p, LMB_PACK_LIGHTS, i);
     lmb_mat4 world, turn;
     if (node == LMB_PACK_NONE) {
-        return 1;
+        return LMB_OK;
     }
-    if (!way_of(&world, p, node, time_s, 0)) {
-        return 0;
+    if (!node_to_world(&world, p, node, time_s, 0)) {
+        return LMB_ERR_SCENE;
     }
     lmb_vec3 way;
-    if (direction_of(&way, &world, 2) || (way_of(&turn, p, node, time_s, 1) && direction_of(&way, &turn, 2))) {
+    if (axis_direction(&way, &world, 2) ||
+        (node_to_world(&turn, p, node, time_s, 1) && axis_direction(&way, &turn, 2))) {
         inout->direction = sub3(vec3(0.0f, 0.0f, 0.0f), way);
     } else if (inout->kind != LMB_LIGHT_POINT) {
-        return 0;
+        return LMB_ERR_SCENE;
     }
     inout->position = column(&world, 3);
-    return 1;
+    return LMB_OK;
 }
 
 /* Returns 0 if the matrix has no such axes. */
 static int axes_of(lmb_vec3 *right, lmb_vec3 *up, lmb_vec3 *back, const lmb_mat4 *m)
 {
-    if (!direction_of(back, m, 2) || !direction_of(up, m, 1)) {
+    if (!axis_direction(back, m, 2) || !axis_direction(up, m, 1)) {
         return 0;
     }
     *right = cross3(*up, *back);
@@ -288,9 +307,9 @@ int lmb_pack_place_camera(lmb_view *inout, const lmb_pack *p, uint32_t i, float 
     if (node == LMB_PACK_NONE) {
         return 1;
     }
-    if (!way_of(&world, p, node, time_s, 0) ||
+    if (!node_to_world(&world, p, node, time_s, 0) ||
         (!axes_of(&right, &up, &back, &world) &&
-         !(way_of(&turn, p, node, time_s, 1) && axes_of(&right, &up, &back, &turn)))) {
+         !(node_to_world(&turn, p, node, time_s, 1) && axes_of(&right, &up, &back, &turn)))) {
         return 0;
     }
     inout->eye = column(&world, 3);

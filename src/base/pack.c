@@ -11,35 +11,35 @@
 
 #if LMB_PACK
 
-enum { ORDER = 1, SIZE, PARTS, RESERVED }; /* header words */
+enum { PACK_ORDER = 1, PACK_SIZE, PACK_PARTS, PACK_RESERVED }; /* header words */
 
-#define OWN_ORDER 0x01020304u
-#define MAX_COUNT 0x0fffffffu /* limit of vertices and triangles: products with them fit 64 bits */
+#define PACK_OWN_ORDER 0x01020304u
+#define MAX_PACK_COUNT 0x0fffffffu /* limit of vertices and triangles: products with them fit 64 bits */
 #define MAX_VALUE 1e30f       /* limit of a key */
 
 /* A file that is being checked. */
-typedef struct source {
+typedef struct pack_source {
     lmb_pack *pack;
     uint32_t bytes;
     uint64_t indices, keys; /* words that indices and keys may still read: bounds the cost of shared ranges */
-} source;
+} pack_source;
 
 /* Do `size` bytes at offset `at` lie inside the file? */
-static int holds(const source *s, uint32_t at, uint64_t size)
+static int holds_part(const pack_source *s, uint32_t at, uint64_t size)
 {
     return at % 4 == 0 && at >= 4 * LMB_PACK_HEADER_WORDS && at <= s->bytes && size <= s->bytes - at;
 }
 
 /* The same, but offset 0 means no data. */
-static int may_hold(const source *s, uint32_t at, uint64_t size) { return at == 0 || holds(s, at, size); }
+static int may_hold(const pack_source *s, uint32_t at, uint64_t size) { return at == 0 || holds_part(s, at, size); }
 
-static int is_finite(float v) { return v >= -FLT_MAX && v <= FLT_MAX; }
+static int is_word_finite(float v) { return v >= -FLT_MAX && v <= FLT_MAX; }
 
-static int are_finite(const uint32_t *word, int count)
+static int are_words_finite(const uint32_t *word, int count)
 {
     int all = 1;
     for (int i = 0; i < count; ++i) {
-        all &= is_finite(lmb_pack_float(word + i));
+        all &= is_word_finite(lmb_pack_float(word + i));
     }
     return all;
 }
@@ -68,14 +68,14 @@ static int are_indices(const lmb_mesh *m)
     return largest < m->vertex_count;
 }
 
-static int is_mesh(source *s, uint32_t i)
+static int is_mesh(pack_source *s, uint32_t i)
 {
     const uint32_t *w = lmb_pack_record(s->pack, LMB_PACK_MESHES, i);
     const uint64_t vertices = w[0], triangles = w[1];
     const uint32_t position = w[2] & 255u, uv = w[2] >> 8 & 255u, index = w[2] >> 16 & 255u;
     const uint64_t corners = index == LMB_INDEX_NONE ? 0 : 3 * triangles * (index == LMB_INDEX_U16 ? 2 : 4);
     lmb_mesh m;
-    if (vertices > MAX_COUNT || triangles > MAX_COUNT || position > LMB_POSITION_I16 || uv > LMB_UV_U16 ||
+    if (vertices > MAX_PACK_COUNT || triangles > MAX_PACK_COUNT || position > LMB_POSITION_I16 || uv > LMB_UV_U16 ||
         index > LMB_INDEX_U32 || corners > s->indices ||
         !may_hold(s, w[3], vertices * (position == LMB_POSITION_F32 ? 12 : 8)) || !may_hold(s, w[4], vertices * 4) ||
         !may_hold(s, w[5], vertices * 4) || !may_hold(s, w[6], vertices * (uv == LMB_UV_F32 ? 8 : 4)) ||
@@ -89,16 +89,16 @@ static int is_mesh(source *s, uint32_t i)
 
 /* --- materials, textures, instances ------------------------------------------------------------------------------- */
 
-static int is_texture(const source *s, uint32_t i)
+static int is_texture(const pack_source *s, uint32_t i)
 {
     const uint32_t *w = lmb_pack_record(s->pack, LMB_PACK_TEXTURES, i);
     const int32_t width = (int32_t)(w[1] & 0xffffu), height = (int32_t)(w[1] >> 16), levels = (int32_t)(w[2] & 255u);
     const size_t bytes = lmb_texture_format_bytes((int32_t)(w[2] >> 8 & 255u), width, height, levels);
-    return bytes > 0 && holds(s, w[0], bytes) && (w[2] >> 16 & 255u) <= LMB_WRAP_MIRROR &&
+    return bytes > 0 && holds_part(s, w[0], bytes) && (w[2] >> 16 & 255u) <= LMB_WRAP_MIRROR &&
            w[2] >> 24 <= LMB_WRAP_MIRROR && w[3] <= LMB_TRILINEAR;
 }
 
-static int is_material(const source *s, uint32_t i)
+static int is_material(const pack_source *s, uint32_t i)
 {
     lmb_material m;
     lmb_pack_take_material(&m, s->pack, i);
@@ -115,7 +115,7 @@ static int are_instances(const lmb_pack *p)
     uint64_t triangles = 0;
     for (uint32_t i = 0; i < p->count[LMB_PACK_INSTANCES]; ++i) {
         const uint32_t *w = lmb_pack_record(p, LMB_PACK_INSTANCES, i);
-        if (!are_finite(w, 12) || w[12] >= p->count[LMB_PACK_MESHES] || w[13] >= p->count[LMB_PACK_MATERIALS] ||
+        if (!are_words_finite(w, 12) || w[12] >= p->count[LMB_PACK_MESHES] || w[13] >= p->count[LMB_PACK_MATERIALS] ||
             !is_node(p, w[PACK_INSTANCE_NODE])) {
             return 0;
         }
@@ -134,24 +134,24 @@ static int is_light(const lmb_pack *p, uint32_t i)
     return lmb_check_light(&l) == LMB_OK && is_node(p, lmb_pack_record(p, LMB_PACK_LIGHTS, i)[PACK_LIGHT_NODE]);
 }
 
-static int is_camera(const lmb_pack *p, uint32_t i)
+static int is_packed_camera(const lmb_pack *p, uint32_t i)
 {
     const uint32_t *w = lmb_pack_record(p, LMB_PACK_CAMERAS, i);
-    return are_finite(w, 12) && w[12] <= LMB_ORTHOGRAPHIC && are_finite(w + 13, 6) &&
+    return are_words_finite(w, 12) && w[12] <= LMB_ORTHOGRAPHIC && are_words_finite(w + 13, 6) &&
            lmb_pack_float(w + 13) > 0.0f && lmb_pack_float(w + 14) > 0.0f && is_node(p, w[PACK_CAMERA_NODE]);
 }
 
 /* --- nodes and tracks --------------------------------------------------------------------------------------------- */
 
 /* Checks that times rise from 0 on and values are finite. */
-static int is_track(source *s, uint32_t i)
+static int is_track(pack_source *s, uint32_t i)
 {
     const uint32_t *w = lmb_pack_record(s->pack, LMB_PACK_TRACKS, i), *data = s->pack->data;
     const uint32_t what = w[0] & 255u, between = w[0] >> 8, keys = w[1];
     const uint64_t floats = (uint64_t)keys * (what == 1 ? 4 : 3) * (between == 2 ? 3 : 1);
     float last = -1.0f;
-    if (what > 2 || between > 2 || keys == 0 || floats > s->keys || !holds(s, w[2], 4 * (uint64_t)keys) ||
-        !holds(s, w[3], 4 * floats)) {
+    if (what > 2 || between > 2 || keys == 0 || floats > s->keys || !holds_part(s, w[2], 4 * (uint64_t)keys) ||
+        !holds_part(s, w[3], 4 * floats)) {
         return 0;
     }
     s->keys -= floats;
@@ -178,7 +178,7 @@ static int are_nodes(const lmb_pack *p)
         const uint32_t tracks = p->count[LMB_PACK_TRACKS];
         uint32_t taken = 0, above = 0;
         if ((w[0] != LMB_PACK_NONE && w[0] >= i) || w[1] > tracks || w[2] > 3 || w[2] > tracks - w[1] || w[3] > 1 ||
-            !are_finite(w + 4, 12)) {
+            !are_words_finite(w + 4, 12)) {
             return 0;
         }
         for (uint32_t t = w[1]; t < w[1] + w[2]; ++t) {
@@ -202,21 +202,22 @@ static int are_nodes(const lmb_pack *p)
 /* End of the table of parts, in bytes. */
 static uint32_t table_end(const uint32_t *word)
 {
-    return 4 * (LMB_PACK_HEADER_WORDS + LMB_PACK_PART_WORDS * word[PARTS]);
+    return 4 * (LMB_PACK_HEADER_WORDS + LMB_PACK_PART_WORDS * word[PACK_PARTS]);
 }
 
 static int is_header(const uint32_t *word, size_t bytes)
 {
     uint32_t rest = 0;
     if (bytes < 4 * LMB_PACK_HEADER_WORDS || memcmp(word, "LMP", 3) != 0 ||
-        ((const uint8_t *)word)[3] != LMB_PACK_VERSION || word[ORDER] != OWN_ORDER || word[SIZE] > bytes ||
-        word[SIZE] % 4 != 0 || word[PARTS] == 0 || word[PARTS] > LMB_PACK_MOST_PARTS) {
+        ((const uint8_t *)word)[3] != LMB_PACK_VERSION || word[PACK_ORDER] != PACK_OWN_ORDER ||
+        word[PACK_SIZE] > bytes || word[PACK_SIZE] % 4 != 0 || word[PACK_PARTS] == 0 ||
+        word[PACK_PARTS] > LMB_PACK_MOST_PARTS) {
         return 0;
     }
-    for (int i = RESERVED; i < LMB_PACK_HEADER_WORDS - 1; ++i) { /* the last one is the tool's checksum */
+    for (int i = PACK_RESERVED; i < LMB_PACK_HEADER_WORDS - 1; ++i) { /* the last one is the tool's checksum */
         rest |= word[i];
     }
-    return rest == 0 && table_end(word) <= word[SIZE];
+    return rest == 0 && table_end(word) <= word[PACK_SIZE];
 }
 
 /* Is part i disjoint from the table of parts and all earlier parts? All of them lie in the file. */
@@ -234,12 +235,12 @@ static int is_apart(const uint32_t *data, uint32_t i)
     return own[1] >= table_end(data);
 }
 
-static int find_parts(source *s)
+static int find_pack_parts(pack_source *s)
 {
     lmb_pack *p = s->pack;
-    for (uint32_t i = 0; i < p->data[PARTS]; ++i) {
+    for (uint32_t i = 0; i < p->data[PACK_PARTS]; ++i) {
         const uint32_t *w = p->data + LMB_PACK_HEADER_WORDS + LMB_PACK_PART_WORDS * (size_t)i, kind = w[0];
-        if (!holds(s, w[1], w[2]) || !is_apart(p->data, i) || w[3] != 0 || kind == 0) {
+        if (!holds_part(s, w[1], w[2]) || !is_apart(p->data, i) || w[3] != 0 || kind == 0) {
             return 0;
         }
         if (kind >= LMB_PACK_KINDS) {
@@ -256,11 +257,11 @@ static int find_parts(source *s)
     return p->count[LMB_PACK_SCENE] == 1;
 }
 
-static int is_whole(source *s)
+static int is_packed_scene(pack_source *s)
 {
     lmb_pack *p = s->pack;
     lmb_scene scene;
-    int all = find_parts(s);
+    int all = find_pack_parts(s);
     if (!all) {
         return 0;
     }
@@ -281,7 +282,7 @@ static int is_whole(source *s)
         all = is_light(p, i);
     }
     for (uint32_t i = 0; all && i < p->count[LMB_PACK_CAMERAS]; ++i) {
-        all = is_camera(p, i);
+        all = is_packed_camera(p, i);
     }
     for (uint32_t i = 0; all && i < p->count[LMB_PACK_TRACKS]; ++i) {
         all = is_track(s, i);
@@ -291,7 +292,7 @@ static int is_whole(source *s)
 
 lmb_status lmb_pack_open(lmb_pack *out, const void *data, size_t bytes)
 {
-    source s;
+    pack_source s;
     if (out == NULL || data == NULL) {
         return LMB_ERR_ARG;
     }
@@ -304,10 +305,10 @@ lmb_status lmb_pack_open(lmb_pack *out, const void *data, size_t bytes)
     }
     out->data = (const uint32_t *)data;
     s.pack = out;
-    s.bytes = out->data[SIZE];
+    s.bytes = out->data[PACK_SIZE];
     s.indices = s.bytes;
     s.keys = s.bytes / 4;
-    if (!is_whole(&s)) {
+    if (!is_packed_scene(&s)) {
         memset(out, 0, sizeof *out);
         return LMB_ERR_FORMAT;
     }
@@ -331,7 +332,7 @@ typedef struct layout {
     uint64_t meshes, textures, materials, instances, lights, bytes;
 } layout;
 
-static layout lay_out(const lmb_pack *p)
+static layout lay_out_scene(const lmb_pack *p)
 {
     layout l;
     l.meshes = 0;
@@ -345,7 +346,7 @@ static layout lay_out(const lmb_pack *p)
 
 size_t lmb_pack_bytes(const lmb_pack *pack)
 {
-    return pack != NULL && pack->data != NULL ? size_or_none(lay_out(pack).bytes) : 0;
+    return pack != NULL && pack->data != NULL ? size_or_none(lay_out_scene(pack).bytes) : 0;
 }
 
 static lmb_status check_pack(const lmb_pack *pack, const void *memory, size_t bytes)
@@ -356,7 +357,7 @@ static lmb_status check_pack(const lmb_pack *pack, const void *memory, size_t by
     if ((uintptr_t)memory % sizeof(void *) != 0) {
         return LMB_ERR_ALIGN;
     }
-    return check_memory(memory, bytes, lay_out(pack).bytes > 0 ? lmb_pack_bytes(pack) : 1);
+    return check_memory(memory, bytes, lay_out_scene(pack).bytes > 0 ? lmb_pack_bytes(pack) : 1);
 }
 
 static void take_instances(lmb_instance *out, const lmb_pack *p)
@@ -379,7 +380,7 @@ lmb_status lmb_pack_scene(lmb_scene *out, const lmb_pack *pack, void *memory, si
     if (out == NULL || status != LMB_OK) {
         return out == NULL ? LMB_ERR_ARG : status;
     }
-    const layout l = lay_out(pack);
+    const layout l = lay_out_scene(pack);
     uint8_t *at = (uint8_t *)memory;
     lmb_mesh *meshes = (lmb_mesh *)(void *)(at + l.meshes);
     lmb_texture *textures = (lmb_texture *)(void *)(at + l.textures);
@@ -424,7 +425,7 @@ lmb_status lmb_pack_pose(lmb_scene *inout, const lmb_pack *pack, float time_s)
     int moved = 0;
     for (uint32_t i = 0; i < inout->instance_count; ++i) {
         lmb_instance to = instances[i];
-        if (!lmb_pack_place_instance(&to, pack, i, time_s)) {
+        if (lmb_pack_place_instance(&to, pack, i, time_s) != LMB_OK) {
             return LMB_ERR_SCENE;
         }
         if (memcmp(&to, &instances[i], sizeof to) != 0) {
@@ -435,7 +436,7 @@ lmb_status lmb_pack_pose(lmb_scene *inout, const lmb_pack *pack, float time_s)
     }
     for (uint32_t i = 0; i < inout->light_count; ++i) {
         lmb_light to = lights[i];
-        if (!lmb_pack_place_light(&to, pack, i, time_s)) {
+        if (lmb_pack_place_light(&to, pack, i, time_s) != LMB_OK) {
             return LMB_ERR_SCENE;
         }
         if (memcmp(&to, &lights[i], sizeof to) != 0) {
@@ -451,7 +452,7 @@ lmb_status lmb_pack_pose(lmb_scene *inout, const lmb_pack *pack, float time_s)
 }
 
 /* Distance from a point to the farthest corner of the scene's box. */
-static float reach_of(const lmb_scene *s, lmb_vec3 eye)
+static float reach_from(const lmb_scene *s, lmb_vec3 eye)
 {
     const lmb_vec3 low = sub3(s->bounds_min, eye), high = sub3(s->bounds_max, eye);
     float far2 = 0.0f;
@@ -496,7 +497,7 @@ lmb_status lmb_pack_view(lmb_view *out, const lmb_pack *pack, const lmb_scene *s
     if (!lmb_pack_place_camera(&v, pack, camera, time_s)) {
         return LMB_ERR_SCENE;
     }
-    const float reach = reach_of(scene, v.eye);
+    const float reach = reach_from(scene, v.eye);
     v.near_m = v.near_m > 0.0f ? v.near_m : near_of(reach);
     v.far_m = v.kind == LMB_ORTHOGRAPHIC && v.far_m > v.near_m ? v.far_m : v.near_m + 2.0f * reach;
     *out = v;

@@ -15,6 +15,7 @@
 
 #define LMB_PI 3.14159274f          /* the float nearest to pi, and */
 #define LMB_PI_REST -8.74227766e-8f /* the rest of pi */
+#define LMB_INVERSE_PI 0.31830989f
 
 static inline uint32_t float_bits(float v)
 {
@@ -29,14 +30,6 @@ static inline float bits_float(uint32_t u)
     memcpy(&v, &u, sizeof v);
     return v;
 }
-
-/* lmb_tan: lmb_sin(x) / lmb_cos(x), the same domain. Relative error < 2.5e-7, near the poles too: no float is a
- * pole. */
-float lmb_tan(float x);
-
-/* lmb_acos: 0 .. pi, for x clamped to -1 .. 1; NaN counts as 1. Absolute error < 2.6e-7; at -1, 0 and 1 the nearest
- * float. */
-float lmb_acos(float x);
 
 /* lmb_atan2: the angle of the point (x, y), -pi .. pi. Absolute error < 2e-7; on the axes and diagonals the nearest
  * float. The signs of zeros are ignored: (0, -1) gives +pi, (0, 0) gives 0. A NaN gives 0; two infinities count as

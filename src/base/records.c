@@ -7,11 +7,7 @@
 
 #if LMB_PACK
 
-/* SCENE, MESHES, VERTICES, INDICES, MATERIALS, TEXTURES, TEXELS, INSTANCES, LIGHTS, CAMERAS, NODES, TRACKS, ... */
-const uint8_t lmb_pack_words_each[LMB_PACK_KINDS] = {
-    0, LMB_PACK_SCENE_WORDS, LMB_PACK_MESH_WORDS, 0, 0, LMB_PACK_MATERIAL_WORDS, LMB_PACK_TEXTURE_WORDS, 0,
-    LMB_PACK_INSTANCE_WORDS, LMB_PACK_LIGHT_WORDS, LMB_PACK_CAMERA_WORDS, LMB_PACK_NODE_WORDS, LMB_PACK_TRACK_WORDS, 1,
-    0, 0, 0};
+const uint8_t lmb_pack_words_each[LMB_PACK_KINDS] = LMB_PACK_WORDS_EACH;
 
 const uint32_t *lmb_pack_record(const lmb_pack *p, int kind, uint32_t i)
 {
@@ -33,7 +29,7 @@ lmb_vec3 lmb_pack_vec(const uint32_t *word)
 static void take_floats(float *out, const uint32_t *word, size_t count) { memcpy(out, word, count * sizeof *out); }
 
 /* Offset 0 means no data. */
-static const void *place_of(const lmb_pack *p, uint32_t offset) { return offset != 0 ? p->data + offset / 4 : NULL; }
+static const void *data_at(const lmb_pack *p, uint32_t offset) { return offset != 0 ? p->data + offset / 4 : NULL; }
 
 void lmb_pack_take_mesh(lmb_mesh *out, const lmb_pack *p, uint32_t i)
 {
@@ -45,12 +41,12 @@ void lmb_pack_take_mesh(lmb_mesh *out, const lmb_pack *p, uint32_t i)
     out->uv_format = (uint8_t)(w[2] >> 8 & 255u);
     out->index_format = (uint8_t)(w[2] >> 16 & 255u);
     out->tangent_format = (uint8_t)(w[2] >> 24);
-    out->positions = place_of(p, w[3]);
-    out->normals = (const int16_t *)place_of(p, w[4]);
-    out->tangents = (const int16_t *)place_of(p, w[5]);
-    out->uvs = place_of(p, w[6]);
-    out->colours = (const uint8_t *)place_of(p, w[7]);
-    out->indices = place_of(p, w[8]);
+    out->positions = data_at(p, w[3]);
+    out->normals = (const int16_t *)data_at(p, w[4]);
+    out->tangents = (const int16_t *)data_at(p, w[5]);
+    out->uvs = data_at(p, w[6]);
+    out->colours = (const uint8_t *)data_at(p, w[7]);
+    out->indices = data_at(p, w[8]);
     out->position_scale = lmb_pack_vec(w + 9);
     out->position_offset = lmb_pack_vec(w + 12);
     take_floats(out->uv_scale, w + 15, 2);
@@ -79,7 +75,7 @@ void lmb_pack_take_texture(lmb_texture *out, const lmb_pack *p, uint32_t i)
 {
     const uint32_t *w = lmb_pack_record(p, LMB_PACK_TEXTURES, i);
     memset(out, 0, sizeof *out);
-    out->texels = (const uint8_t *)place_of(p, w[0]);
+    out->texels = (const uint8_t *)data_at(p, w[0]);
     out->width = (uint16_t)(w[1] & 0xffffu);
     out->height = (uint16_t)(w[1] >> 16);
     out->levels = (uint8_t)(w[2] & 255u);

@@ -21,11 +21,11 @@ static int are_within(const float *v, int32_t count, float low, float high)
     return 1;
 }
 
-static int are_finite(const float *v, int32_t count) { return are_within(v, count, -FLT_MAX, FLT_MAX); }
+static int are_numbers_finite(const float *v, int32_t count) { return are_within(v, count, -FLT_MAX, FLT_MAX); }
 
-static int is_finite(float v) { return v >= -FLT_MAX && v <= FLT_MAX; }
+static int is_number_finite(float v) { return v >= -FLT_MAX && v <= FLT_MAX; }
 
-static int is_finite3(lmb_vec3 v) { return is_finite(v.x) && is_finite(v.y) && is_finite(v.z); }
+static int is_finite3(lmb_vec3 v) { return is_number_finite(v.x) && is_number_finite(v.y) && is_number_finite(v.z); }
 
 static int is_aligned(const void *p) { return ((uintptr_t)p & 3u) == 0; }
 
@@ -43,7 +43,7 @@ lmb_status lmb_check_mesh(const lmb_mesh *m)
         return LMB_ERR_ALIGN;
     if (m->position_format == LMB_POSITION_I16 && !(is_finite3(m->position_scale) && is_finite3(m->position_offset)))
         return LMB_ERR_ARG;
-    if (m->uvs && m->uv_format == LMB_UV_U16 && !are_finite(m->uv_scale, 2))
+    if (m->uvs && m->uv_format == LMB_UV_U16 && !are_numbers_finite(m->uv_scale, 2))
         return LMB_ERR_ARG;
     if (m->index_format == LMB_INDEX_NONE && m->triangle_count > m->vertex_count / 3)
         return LMB_ERR_SCENE;
@@ -66,8 +66,8 @@ lmb_status lmb_check_material(const lmb_material *m, uint32_t texture_count)
 {
     if (!are_within(m->albedo, 3, 0.0f, FLT_MAX) || !are_within(m->emission, 3, 0.0f, FLT_MAX) ||
         !are_within(m->specular, 3, 0.0f, 1.0f) || !are_within(&m->roughness, 1, 0.0f, 1.0f) ||
-        !are_within(&m->metallic, 1, 0.0f, 1.0f) || !is_finite(m->alpha) || !is_finite(m->alpha_cutoff) ||
-        !is_finite(m->normal_scale))
+        !are_within(&m->metallic, 1, 0.0f, 1.0f) || !is_number_finite(m->alpha) || !is_number_finite(m->alpha_cutoff) ||
+        !is_number_finite(m->normal_scale))
         return LMB_ERR_ARG;
     if (m->normal_scale != 0.0f && m->normal_map >= texture_count)
         return LMB_ERR_SCENE;
@@ -83,7 +83,7 @@ lmb_status lmb_check_light(const lmb_light *l)
     if (!light_kind_is(l->kind, LIGHT_KNOWN))
         return LMB_ERR_FORMAT;
     if (!is_finite3(l->position) || !is_finite3(l->direction) || !are_within(l->intensity, 3, 0.0f, FLT_MAX) ||
-        !is_finite(l->cos_inner) || !is_finite(l->cos_outer) || !are_within(&l->range, 1, 0.0f, FLT_MAX))
+        !is_number_finite(l->cos_inner) || !is_number_finite(l->cos_outer) || !are_within(&l->range, 1, 0.0f, FLT_MAX))
         return LMB_ERR_ARG;
     return light_shape_is_valid(l) ? LMB_OK : LMB_ERR_ARG;
 }
@@ -94,7 +94,7 @@ static lmb_status check_instances(const lmb_scene *scene)
     uint32_t i, next_id = 1, triangles;
     for (i = 0; i < scene->instance_count; ++i) {
         const lmb_instance *in = &scene->instances[i];
-        if (!are_finite(in->to_world.m, 16))
+        if (!are_numbers_finite(in->to_world.m, 16))
             return LMB_ERR_ARG;
         if (in->mesh >= scene->mesh_count || in->material >= scene->material_count || in->first_id != next_id)
             return LMB_ERR_SCENE;

@@ -32,7 +32,7 @@ int32_t lmb_pixel_bytes(int32_t format)
 /* Depth and id formats, which have whole tiles. */
 static int is_tile_format(int32_t format) { return format >= LMB_DEPTH32F && format <= LMB_ID32; }
 
-static int is_size(int32_t width, int32_t height)
+static int is_surface_size(int32_t width, int32_t height)
 {
     return width >= 1 && width <= LMB_MAX_SIDE && height >= 1 && height <= LMB_MAX_SIDE;
 }
@@ -49,7 +49,7 @@ static int32_t packed_stride(int32_t format, int32_t width)
 size_t lmb_surface_bytes(int32_t format, int32_t width, int32_t height)
 {
     int32_t rows;
-    if (!is_size(width, height) || !lmb_pixel_bytes(format))
+    if (!is_surface_size(width, height) || !lmb_pixel_bytes(format))
         return 0;
     rows = is_tile_format(format) ? round_up(height, LMB_TILE) / LMB_TILE : height;
     return (size_t)packed_stride(format, width) * (size_t)rows;
@@ -59,7 +59,7 @@ size_t lmb_depth_bytes(int32_t width, int32_t height) { return lmb_surface_bytes
 
 lmb_status lmb_surface_init(lmb_surface *out, int32_t format, int32_t width, int32_t height, void *data, size_t bytes)
 {
-    if (!out || !data || !is_size(width, height))
+    if (!out || !data || !is_surface_size(width, height))
         return LMB_ERR_ARG;
     if (!lmb_pixel_bytes(format))
         return LMB_ERR_FORMAT;
@@ -81,7 +81,7 @@ lmb_status lmb_surface_init(lmb_surface *out, int32_t format, int32_t width, int
 int lmb_surface_is_valid(const lmb_surface *s)
 {
     int32_t tile, min;
-    if (!s || !s->data || !is_size(s->width, s->height) || !lmb_pixel_bytes(s->format) || s->layout > LMB_TILED)
+    if (!s || !s->data || !is_surface_size(s->width, s->height) || !lmb_pixel_bytes(s->format) || s->layout > LMB_TILED)
         return 0;
     tile = mini(lmb_pixel_bytes(s->format), 4);
     if ((uintptr_t)s->data % (uintptr_t)tile != 0 || s->stride_bytes % tile != 0)

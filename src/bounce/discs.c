@@ -5,16 +5,16 @@
 #include <string.h>
 
 #include "../base/poly.h"
+#include "../raster/tile.h"
 #include "group.h"
 
 #if LMB_BOUNCE
 
-#define COS_25 0.90630779f
 #define SIN_25 0.42261826f
-#define RIM 1e-3f          /* sine: a point this far below the plane still counts as on it */
-#define KEPT 0x80000000u   /* flag in a link: the other bits are the disc's new index */
+#define MAX_RIM_SINE 1e-3f         /* sine: a point this far below the plane still counts as on it */
+#define LINK_IS_KEPT 0x80000000u   /* flag in a link: the other bits are the disc's new index */
 
-enum { REACH = 32 }; /* cells visited in each direction */
+enum { MAX_REACH_CELLS = 32 }; /* cells visited in each direction */
 
 typedef struct neighbourhood {
     lmb_points *points;
@@ -26,7 +26,7 @@ typedef struct neighbourhood {
 } neighbourhood;
 
 /* The points in the cells around a point, in the map's order. */
-typedef struct around {
+typedef struct disc_neighbour {
     const neighbourhood *n;
     lmb_vec3 from; /* position of the point when the search began */
     int32_t x0, x1, x, y, y1, step; /* the current cell, and the last ones */
@@ -34,10 +34,10 @@ typedef struct around {
     lmb_point *q;                   /* current point: the one before `at` */
     lmb_vec3 away;                  /* from `from` to it, */
     float d;                        /* m */
-} around;
+} disc_neighbour;
 
 /* Advances a->q to the next point. Returns 0 after the last one. */
-static int next_around(around *a)
+static int next_around(disc_neighbour *a)
 {
     const uint32_t side = a->n->side;
     while (a->at == a->end && a->y <= a->y1) {
@@ -64,20 +64,20 @@ static int next_around(around *a)
 /* 1 if a->q is a neighbour of p. Neighbours face the same way [V9], or lie in the hemisphere above p's surface and may
  * face any way [V10]. Points of the surface itself lie on the rim of the hemisphere, within rounding. In both cases the
  * distance is within the threshold. */
-static int is_neighbour(const neighbourhood *n, const lmb_point *p, const around *a)
+static int is_neighbour(const neighbourhood *n, const lmb_point *p, const disc_neighbour *a)
 {
-    const int meets = n->hemisphere ? dot3(p->normal, a->away) >= -RIM * a->d
-                                    : dot3(p->normal, a->q->normal) >= COS_25;
+    const int meets =
+        n->hemisphere ? dot3(p->normal, a->away) >= -MAX_RIM_SINE * a->d : dot3(p->normal, a->q->normal) >= TILE_COS_25;
     return meets && (n->threshold <= 0.0f || a->d <= n->threshold);
 }
 
 /* Sets up a search over the cells that can hold points within `radius` m of p, or over n->cells; at most `max` cells
- * away. If that is more than REACH each way, it visits every second, third .. cell.
+ * away. If that is more than MAX_REACH_CELLS each way, it visits every second, third .. cell.
  *
  * A point at depth w m and tangent t on the map that moves by e m, |e| <= radius, changes its tangent by |e_x - t e_w|
  * / (w + e_w), which is at most radius sqrt(1 + t^2) / (w - radius). t is an upper and w a lower bound: both are taken
  * at the corner of a square through the far side of the cell. */
-static void around_point(around *a, const neighbourhood *n, const lmb_point *p, float radius, int32_t max)
+static void around_point(disc_neighbour *a, const neighbourhood *n, const lmb_point *p, float radius, int32_t max)
 {
     const int32_t side = (int32_t)n->side, x = p->cell_x, y = p->cell_y;
     float cells = 0.5f * (float)side * radius / n->view->half_width;
@@ -92,7 +92,7 @@ static void around_point(around *a, const neighbourhood *n, const lmb_point *p, 
     reach = mini(reach, max);
     a->n = n;
     a->from = p->position;
-    a->step = (reach + REACH - 1) / REACH;
+    a->step = (reach + MAX_REACH_CELLS - 1) / MAX_REACH_CELLS;
     reach = reach / a->step * a->step;
     a->x = a->x0 = x - reach;
     a->x1 = x + reach;
@@ -104,7 +104,7 @@ static void around_point(around *a, const neighbourhood *n, const lmb_point *p, 
 /* [V8]: the mean over the neighbours. If there are none, the size of the quad. */
 static float mean_distance(const neighbourhood *n, const lmb_point *p)
 {
-    around a;
+    disc_neighbour a;
     float sum = 0.0f, count = 0.0f;
     around_point(&a, n, p, n->threshold, (int32_t)n->side);
     while (next_around(&a)) {
@@ -116,7 +116,7 @@ static float mean_distance(const neighbourhood *n, const lmb_point *p)
     return count > 0.0f ? sum / count : length3(p->axis_u) + length3(p->axis_v);
 }
 
-static void widen(lmb_point *p, float times)
+static void widen_disc(lmb_point *p, float times)
 {
     p->axis_u = mul3(p->axis_u, times);
     p->axis_v = mul3(p->axis_v, times);
@@ -134,7 +134,7 @@ static void join_point(lmb_point *p, const lmb_point *q)
         p->flux[c] += q->flux[c];
         p->albedo[c] += (q->albedo[c] - p->albedo[c]) * share;
     }
-    widen(p, grow);
+    widen_disc(p, grow);
 }
 
 static void join_neighbours(const neighbourhood *n, uint32_t i)
@@ -142,10 +142,10 @@ static void join_neighbours(const neighbourhood *n, uint32_t i)
     lmb_point *p = &n->points->data[i];
     const lmb_vec3 normal = p->normal; /* of the disc's first point, as are distances [V12] */
     const float within = n->join * p->distance;
-    around a;
-    around_point(&a, n, p, within, REACH);
+    disc_neighbour a;
+    around_point(&a, n, p, within, MAX_REACH_CELLS);
     while (next_around(&a)) {
-        if (a.q > p && a.q->link == a.at - 1 && dot3(normal, a.q->normal) >= COS_25 && a.d < within) {
+        if (a.q > p && a.q->link == a.at - 1 && dot3(normal, a.q->normal) >= TILE_COS_25 && a.d < within) {
             join_point(p, a.q);
             a.q->link = i;
         }
@@ -194,21 +194,21 @@ static int32_t lattice_reach(int32_t thin)
 
 /* 1 if a->q is on p's surface: the normals agree, and the chord leaves the plane by no more than on a surface that
  * turns by 25 degrees. */
-static int is_same_surface(const lmb_point *p, const around *a)
+static int is_point_on_surface(const lmb_point *p, const disc_neighbour *a)
 {
-    return dot3(p->normal, a->q->normal) >= COS_25 && absf(dot3(p->normal, a->away)) <= SIN_25 * a->d;
+    return dot3(p->normal, a->q->normal) >= TILE_COS_25 && absf(dot3(p->normal, a->away)) <= SIN_25 * a->d;
 }
 
 /* The nearest disc (a point that links to itself) on the surface of point i, or i. */
 static uint32_t nearest_disc(const neighbourhood *n, uint32_t i)
 {
     const lmb_point *p = &n->points->data[i];
-    around a;
+    disc_neighbour a;
     uint32_t nearest = i;
     float min = 0.0f;
-    around_point(&a, n, p, 0.0f, REACH);
+    around_point(&a, n, p, 0.0f, MAX_REACH_CELLS);
     while (next_around(&a)) {
-        if (a.q->link == a.at - 1 && is_same_surface(p, &a) && (nearest == i || a.d < min)) {
+        if (a.q->link == a.at - 1 && is_point_on_surface(p, &a) && (nearest == i || a.d < min)) {
             nearest = a.at - 1;
             min = a.d;
         }
@@ -245,18 +245,18 @@ static void close_gaps(lmb_points *points, uint32_t first, const lmb_shadow_map 
         data[i].link = data[data[i].link].link;
     }
     for (uint32_t i = first; i < points->count; ++i) {
-        data[i].link = data[i].link == i ? KEPT | kept++ : data[i].link;
+        data[i].link = data[i].link == i ? LINK_IS_KEPT | kept++ : data[i].link;
     }
     for (uint32_t t = points->owner_count - texels; t < points->owner_count; ++t) {
         uint32_t *owner = &points->owner[t];
         if (*owner != LMB_NOBODY) {
             const uint32_t link = data[*owner].link;
-            *owner = (link & KEPT ? link : data[link].link) & ~KEPT;
+            *owner = (link & LINK_IS_KEPT ? link : data[link].link) & ~LINK_IS_KEPT;
         }
     }
     kept = first;
     for (uint32_t i = first; i < points->count; ++i) {
-        if (data[i].link & KEPT) {
+        if (data[i].link & LINK_IS_KEPT) {
             data[kept++] = data[i];
         }
     }
@@ -269,7 +269,7 @@ static void set_radius(lmb_points *points, uint32_t first, float radius)
     for (uint32_t i = first; radius > 0.0f && i < points->count; ++i) {
         lmb_point *p = &points->data[i];
         const float area = lmb_disc_area(p);
-        widen(p, area > 0.0f ? radius * p->distance * sqrtf(LMB_PI / area) : 1.0f);
+        widen_disc(p, area > 0.0f ? radius * p->distance * sqrtf(LMB_PI / area) : 1.0f);
     }
 }
 

@@ -4,18 +4,18 @@
 #ifndef LMB_GATHER_FORMULA
 #define LMB_GATHER_FORMULA
 
-#define INVERSE_PI 0.31830989f
+#include "../base/poly.h"
 
 /* Squared cosines below 2^-40 count as 0, as for a point in the plane. Light at such a grazing angle adds nothing, but
  * c^2 s would be a denormal, which some targets flush. The limit is on cosines, not lengths: scenes may have any
  * scale. */
-#define GRAZING2 9.0949470e-13f
+#define MIN_COSINE2 9.0949470e-13f
 
 /* Lanes in which a = nP.to and b = -nG.to are above the horizons. r2 = to.to. */
 static inline lane_mask disc_faces(lane a, lane b, lane r2)
 {
     const lane min = lane_min(b, a);
-    return lane_lt(lane_mul(lane_splat(GRAZING2), r2), lane_mul(min, lane_max(min, lane_splat(0.0f))));
+    return lane_lt(lane_mul(lane_splat(MIN_COSINE2), r2), lane_mul(min, lane_max(min, lane_splat(0.0f))));
 }
 
 /* One emitter at one vector of pixels, in W/m2 per watt of flux M.
@@ -43,7 +43,7 @@ static inline void disc_fraction(lane *top, lane *bottom, lane a, lane b, lane i
 /* 0 or NaN if i is 0. */
 static inline lane disc_value(lane top, lane bottom, lane i)
 {
-    return lane_mul(lane_mul(lane_splat(INVERSE_PI), i), lane_div(top, bottom));
+    return lane_mul(lane_mul(lane_splat(LMB_INVERSE_PI), i), lane_div(top, bottom));
 }
 
 static inline lane disc_factor(lane3 to, lane r2, lane3 n, lane3 axis, lane area)
@@ -53,7 +53,7 @@ static inline lane disc_factor(lane3 to, lane r2, lane3 n, lane3 axis, lane area
     const lane a = lane3_dot(n, to), b = lane_sub(zero, lane3_dot(axis, to));
     const lane_mask faces = disc_faces(a, b, r2);
     disc_fraction(&top, &bottom, lane_keep(faces, a), lane_keep(faces, b), i, against,
-                  lane_mul(area, lane_splat(INVERSE_PI)));
+                  lane_mul(area, lane_splat(LMB_INVERSE_PI)));
     return lane_keep(faces, disc_value(top, bottom, i));
 }
 
@@ -69,7 +69,7 @@ static inline lane disc_factor(lane3 to, lane r2, lane3 n, lane3 axis, lane area
  * bunny_room at 1.2 / 1.5 / 2: 0.053 0.144 0.092 / 0.050 0.133 0.080 / 0.049 0.125 0.075; time 1 / 1.3 / 2. */
 #define GROUP_NEAR 1.5f
 /* Discs that share one segment if none of them is near. 1 takes three times the segments for 0.001 of trim. */
-#define SHARED 4u
+#define MAX_SHARED_DISCS 4u
 #define SAME_SURFACE 0.90630779f /* cosine of 25 degrees */
 
 /* Picks instead of adding zeros: -0 + 0 is 0, so the bytes of a lane would depend on its neighbours. */
@@ -123,11 +123,11 @@ static inline lane_mask tile_march(const lmb_march_job *m, const lmb_tile *tile,
     return gather_march(m, tile->position[0] + k, tile->face[0] + k, LMB_TILE_PIXELS, at, axis, wanted);
 }
 
-enum { CORNERS = LANES < 4 ? 4 : LANES };
+enum { CORNER_LANES = LANES < 4 ? 4 : LANES };
 enum { SEES_NOTHING, SEES_ALL, SEES_SOME, SEES_UNKNOWN };
 
 typedef struct gather_corners {
-    float position[3][CORNERS], face[3][CORNERS];
+    float position[3][CORNER_LANES], face[3][CORNER_LANES];
     int usable; /* 1: the tile is one surface, and occlusion is on */
 } gather_corners;
 
@@ -152,7 +152,7 @@ static void gather_corners_set(gather_corners *out, const lmb_tile *tile, const 
 {
     static const uint8_t pixel[4] = {0, LMB_TILE - 1, LMB_TILE_PIXELS - LMB_TILE, LMB_TILE_PIXELS - 1};
     out->usable = m != NULL && tile_is_one_surface(tile);
-    for (int i = 0; i < CORNERS; ++i) {
+    for (int i = 0; i < CORNER_LANES; ++i) {
         for (int c = 0; c < 3; ++c) {
             out->position[c][i] = tile->position[c][pixel[i & 3]];
             out->face[c][i] = tile->face[c][pixel[i & 3]];
@@ -160,7 +160,7 @@ static void gather_corners_set(gather_corners *out, const lmb_tile *tile, const 
     }
 }
 
-static inline lane3 corner_load(const float (*p)[CORNERS], int i)
+static inline lane3 corner_load(const float (*p)[CORNER_LANES], int i)
 {
     lane3 r;
     r.x = lane_load(p[0] + i);
@@ -174,13 +174,13 @@ NOINLINE int corners_see(const gather_corners *c, const lmb_march_job *m, const 
 {
     const uint32_t full = ALL_LANES;
     int none = 1, all = 1;
-    for (int i = 0; i < CORNERS && c->usable; i += LANES) {
+    for (int i = 0; i < CORNER_LANES && c->usable; i += LANES) {
         lane3 to = lane3_sub(lane3_of(*at), corner_load(c->position, i));
         lane_mask faces = lane_lt(lane_splat(0.0f), lane3_dot(corner_load(c->face, i), to));
         if (mask_bits(faces) != full) {
             return SEES_SOME; /* the horizon passes through the tile */
         }
-        uint32_t open = mask_bits(gather_march(m, c->position[0] + i, c->face[0] + i, CORNERS, at, axis, faces));
+        uint32_t open = mask_bits(gather_march(m, c->position[0] + i, c->face[0] + i, CORNER_LANES, at, axis, faces));
         none &= open == 0;
         all &= open == full;
     }
@@ -194,10 +194,10 @@ NOINLINE int corners_see(const gather_corners *c, const lmb_march_job *m, const 
  * chains are short and many run side by side. The pairs lie in the caller's scratch. Narrow backends take two vectors
  * of pixels at a time, so that a group is read once for both. */
 #if defined(LANE_PLAIN)
-enum { VECTORS = 1, WIDE = LANES, BLOCK = LANES > 1 ? 8 : 4 };
+enum { BATCH_VECTORS = 1, BATCH_PIXELS = LANES, BLOCK_GROUPS = LANES > 1 ? 8 : 4 };
 #else
-enum { VECTORS = LANES > 8 ? 1 : 2, WIDE = VECTORS * LANES };
-enum { BLOCK = LMB_GATHER_PAIRS < 16 * WIDE || LANES > 8 ? 8 : 16 };
+enum { BATCH_VECTORS = LANES > 8 ? 1 : 2, BATCH_PIXELS = BATCH_VECTORS * LANES };
+enum { BLOCK_GROUPS = LMB_GATHER_PAIRS < 16 * BATCH_PIXELS || LANES > 8 ? 8 : 16 };
 #endif
 
 /* The groups of a block, packed. In lmb_groups the values of a group lie LMB_MAX_GROUPS apart, a power of two, and so
@@ -215,7 +215,7 @@ static void gather_fetch(gather_group *out, const lmb_groups *groups, int32_t j)
     out->at = vec3(groups->position[0][j], groups->position[1][j], groups->position[2][j]);
     out->back = vec3(-groups->normal[0][j], -groups->normal[1][j], -groups->normal[2][j]);
     out->near2 = near_m * near_m;
-    out->area_pi = groups->area[j] * INVERSE_PI;
+    out->area_pi = groups->area[j] * LMB_INVERSE_PI;
     for (int c = 0; c < 3; ++c) {
         out->flux[c] = groups->flux[c][j];
     }
@@ -274,8 +274,8 @@ static uint32_t gather_awake(const gather_ball *ball, const lmb_groups *groups, 
 
 enum { PAIR_A, PAIR_B, PAIR_I }; /* as in disc_fraction */
 typedef struct gather_pairs {
-    float (*of)[LMB_GATHER_PAIRS]; /* [PAIR_..]: WIDE values per group; i is 0 if the pixel gets nothing */
-    int32_t lit[BLOCK], count;
+    float (*of)[LMB_GATHER_PAIRS]; /* [PAIR_..]: BATCH_PIXELS values per group; i is 0 if the pixel gets nothing */
+    int32_t lit[BLOCK_GROUPS], count;
 } gather_pairs;
 
 /* A vector of pixels, for a block of groups. */
@@ -321,14 +321,15 @@ LANE_INLINE uint32_t gather_face(gather_pairs *out, uint32_t *near_bits, const g
 LANE_NOINLINE void gather_find(gather_pairs *out, uint64_t *near_pixels, const lmb_tile *tile, int k,
                                const gather_group *groups, int32_t group_count)
 {
-    const gather_pixels first = gather_load_pixels(tile, k), second = gather_load_pixels(tile, k + WIDE - LANES);
+    const gather_pixels first = gather_load_pixels(tile, k),
+                        second = gather_load_pixels(tile, k + BATCH_PIXELS - LANES);
     int32_t count = 0;
     for (int32_t j = 0; j < group_count; ++j) {
         const gather_group *g = &groups[j];
-        uint32_t near_bits, lit = gather_face(out, &near_bits, &first, g, j * WIDE);
-        if (VECTORS > 1) {
+        uint32_t near_bits, lit = gather_face(out, &near_bits, &first, g, j * BATCH_PIXELS);
+        if (BATCH_VECTORS > 1) {
             uint32_t more;
-            lit |= gather_face(out, &more, &second, g, j * WIDE + LANES);
+            lit |= gather_face(out, &more, &second, g, j * BATCH_PIXELS + LANES);
             near_bits |= more << (LANES & 31);
         }
         out->lit[count] = j;
@@ -352,12 +353,12 @@ LANE_INLINE void gather_estimate_one(gather_pairs *inout, int at, lane3 n, const
 /* Computes the fractions: top replaces a, bottom replaces b. */
 static inline void gather_estimate(gather_pairs *inout, const lmb_tile *tile, int k, const gather_group *groups)
 {
-    const lane3 first = lane3_load(tile->normal, k), second = lane3_load(tile->normal, k + WIDE - LANES);
+    const lane3 first = lane3_load(tile->normal, k), second = lane3_load(tile->normal, k + BATCH_PIXELS - LANES);
     for (int32_t i = 0; i < inout->count; ++i) {
         const int32_t j = inout->lit[i];
-        gather_estimate_one(inout, j * WIDE, first, &groups[j]);
-        if (VECTORS > 1) {
-            gather_estimate_one(inout, j * WIDE + LANES, second, &groups[j]);
+        gather_estimate_one(inout, j * BATCH_PIXELS, first, &groups[j]);
+        if (BATCH_VECTORS > 1) {
+            gather_estimate_one(inout, j * BATCH_PIXELS + LANES, second, &groups[j]);
         }
     }
 }
@@ -397,16 +398,16 @@ LANE_INLINE void gather_put(lmb_irradiance *out, int k, lane3 sum)
 
 static inline void gather_sum(lmb_irradiance *inout, int k, const gather_pairs *pairs, const gather_group *groups)
 {
-    lane3 first = gather_get(inout, k), second = gather_get(inout, k + WIDE - LANES);
+    lane3 first = gather_get(inout, k), second = gather_get(inout, k + BATCH_PIXELS - LANES);
     for (int32_t i = 0; i < pairs->count; ++i) {
         const int32_t j = pairs->lit[i];
-        first = gather_sum_one(first, gather_weight(pairs, j * WIDE), groups[j].flux);
-        if (VECTORS > 1) {
-            second = gather_sum_one(second, gather_weight(pairs, j * WIDE + LANES), groups[j].flux);
+        first = gather_sum_one(first, gather_weight(pairs, j * BATCH_PIXELS), groups[j].flux);
+        if (BATCH_VECTORS > 1) {
+            second = gather_sum_one(second, gather_weight(pairs, j * BATCH_PIXELS + LANES), groups[j].flux);
         }
     }
     gather_put(inout, k, first);
-    if (VECTORS > 1) {
+    if (BATCH_VECTORS > 1) {
         gather_put(inout, k + LANES, second);
     }
 }
@@ -415,15 +416,15 @@ static inline void gather_sum(lmb_irradiance *inout, int k, const gather_pairs *
 typedef struct gather_occluders {
     const lmb_march_job *m;
     const gather_corners *corners;
-    uint8_t sees[BLOCK]; /* SEES_* per group; SEES_UNKNOWN until tested */
+    uint8_t sees[BLOCK_GROUPS]; /* SEES_* per group; SEES_UNKNOWN until tested */
 } gather_occluders;
 
 /* Zeroes the weights of hidden pairs. */
 NOINLINE void gather_hide(gather_pairs *inout, gather_occluders *occluders, const lmb_tile *tile, int k,
                           const gather_group *groups)
 {
-    for (int32_t i = 0; i < inout->count * VECTORS; ++i) {
-        const int32_t j = inout->lit[i / VECTORS], v = i % VECTORS * LANES, at = j * WIDE + v;
+    for (int32_t i = 0; i < inout->count * BATCH_VECTORS; ++i) {
+        const int32_t j = inout->lit[i / BATCH_VECTORS], v = i % BATCH_VECTORS * LANES, at = j * BATCH_PIXELS + v;
         const gather_group *g = &groups[j];
         const lmb_vec3 axis = vec3(-g->back.x, -g->back.y, -g->back.z);
         lane_mask lit = lane_lt(lane_splat(0.0f), gather_weight(inout, at));
@@ -446,7 +447,7 @@ static inline void gather_block(lmb_irradiance *inout, uint64_t *near_pixels, ga
     for (int32_t j = 0; j < count; ++j) {
         occluders->sees[j] = SEES_UNKNOWN;
     }
-    for (int k = 0; k < LMB_TILE_PIXELS; k += WIDE) {
+    for (int k = 0; k < LMB_TILE_PIXELS; k += BATCH_PIXELS) {
         gather_find(pairs, near_pixels, tile, k, groups, count);
         gather_estimate(pairs, tile, k, groups);
         if (occluders->m != NULL) {
@@ -462,7 +463,7 @@ static void KERNEL(gather)(lmb_irradiance *inout, lmb_gather_scratch *scratch, c
     const gather_ball ball = gather_ball_of(tile);
     gather_pairs pairs;
     gather_corners corners;
-    gather_group block[BLOCK];
+    gather_group block[BLOCK_GROUPS];
     gather_occluders occluders;
     int32_t filled = 0;
     pairs.of = scratch->pairs;
@@ -474,7 +475,7 @@ static void KERNEL(gather)(lmb_irradiance *inout, lmb_gather_scratch *scratch, c
         const int32_t count = groups->count - j < LANES ? groups->count - j : LANES;
         for (uint32_t bits = gather_awake(&ball, groups, j, count); bits != 0; bits &= bits - 1) {
             gather_fetch(&block[filled++], groups, j + lowest_bit(bits));
-            if (filled == BLOCK) {
+            if (filled == BLOCK_GROUPS) {
                 gather_block(inout, scratch->near_pixels, &pairs, tile, block, filled, &occluders);
                 filled = 0;
             }
@@ -527,7 +528,7 @@ static inline void gather_disc(lmb_irradiance *inout, const lmb_tile *tile, int 
     }
 }
 
-/* Up to SHARED discs. They are consecutive in the shadow map, so they share the segment to one of them. */
+/* Up to MAX_SHARED_DISCS discs. They are consecutive in the shadow map, so they share the segment to one of them. */
 static inline void gather_chunk(lmb_irradiance *inout, uint64_t pixels, const lmb_tile *tile, const lmb_point *discs,
                                 uint32_t count, const lmb_march_job *m, const gather_corners *corners)
 {
@@ -553,8 +554,9 @@ static void KERNEL(gather_near)(lmb_irradiance *inout, uint64_t pixels, const lm
 {
     gather_corners corners;
     gather_corners_set(&corners, tile, m);
-    for (uint32_t j = 0; j < count; j += SHARED) {
-        gather_chunk(inout, pixels, tile, discs + j, count - j < SHARED ? count - j : SHARED, m, &corners);
+    for (uint32_t j = 0; j < count; j += MAX_SHARED_DISCS) {
+        gather_chunk(inout, pixels, tile, discs + j, count - j < MAX_SHARED_DISCS ? count - j : MAX_SHARED_DISCS, m,
+                     &corners);
     }
 }
 

@@ -136,7 +136,7 @@ static int32_t first_zone(const lmb_points *points, const lmb_grouping *g)
 
 /* Widens the limits: first zone and reach; if that is not enough, the normals too. At last, if there are more faces
  * than groups, the greedy method replaces zones, until any disc joins any group. */
-static void widen(lmb_grouping *g, float *reach, int32_t *zone, uint32_t tries)
+static void widen_zones(lmb_grouping *g, float *reach, int32_t *zone, uint32_t tries)
 {
     *reach *= 1.5f;
     *zone = *zone < 4096 ? *zone + maxi(*zone / 4, 1) : *zone;
@@ -177,7 +177,7 @@ lmb_status lmb_group_points(lmb_groups *out, lmb_points *points, const lmb_group
         if (g.method == LMB_GROUP_NONE) {
             return LMB_ERR_CAPACITY;
         }
-        widen(&g, &reach, &zone, tries);
+        widen_zones(&g, &reach, &zone, tries);
         if (stats != NULL) {
             ++stats->regroups;
         }

@@ -6,14 +6,14 @@
 
 #if LMB_BOUNCE
 
-#define EVERYTHING 1e4f /* a reach this wide takes all remaining discs, regardless of direction */
-#define ANYWHERE 1e18f  /* m */
-#define ROUNDS 64 /* a group that still changes after this many is accepted */
+#define MAX_REACH_RADII  1e4f   /* a reach this wide takes all remaining discs, regardless of direction */
+#define MAX_REACH_M      1e18f  /* m */
+#define MAX_GROUP_ROUNDS 64     /* a group that still changes after this many is accepted */
 
 static int fits(const lmb_group_sum *g, const lmb_point *d, float reach_m, float cosine)
 {
     lmb_vec3 away = sub3(d->position, g->centre);
-    if (reach_m >= ANYWHERE) {
+    if (reach_m >= MAX_REACH_M) {
         return 1;
     }
     return dot3(away, away) <= reach_m * reach_m && lmb_group_agrees(g, d, cosine);
@@ -44,14 +44,15 @@ uint32_t lmb_group_greedy(lmb_points *points, const lmb_grouping *grouping, floa
         if (first->link == LMB_UNGROUPED) {
             lmb_group_sum g;
             float radius = maxf(sqrtf(lmb_disc_area(first) * 0.31830989f), 0.5f * first->distance);
-            float reach_m = reach < EVERYTHING ? reach * radius : ANYWHERE;
+            float reach_m = reach < MAX_REACH_RADII ? reach * radius : MAX_REACH_M;
             if (groups == max) {
                 return max + 1;
             }
             lmb_group_open(&g);
             first->link = groups;
             lmb_group_add(&g, first);
-            for (int round = 0; round < ROUNDS && join_round(&g, points, i + 1, groups, reach_m, grouping->cosine);
+            for (int round = 0;
+                 round < MAX_GROUP_ROUNDS && join_round(&g, points, i + 1, groups, reach_m, grouping->cosine);
                  ++round) {
             }
             ++groups;

@@ -12,12 +12,12 @@
 #include "../base/vec.h"
 #include "../direct/footprint.h"
 #include "../direct/texel.h"
+#include "../raster/tile.h"
 #include "points.h"
 
 #if LMB_BOUNCE
 
-#define ELEMENTS 4       /* surfaces per block; more join the most similar */
-#define COS_25 0.90630779f
+#define MAX_BLOCK_SURFACES 4 /* surfaces per block; more join the most similar */
 
 size_t lmb_points_bytes(uint32_t n, uint32_t side)
 {
@@ -63,7 +63,7 @@ static element *find_element(element *e, int32_t *count, lmb_vec3 p, lmb_vec3 n,
     float best_cosine = -2.0f;
     for (int32_t i = 0; i < *count; ++i) {
         float cosine = dot3(e[i].face, n);
-        if (cosine >= COS_25 && plane_gap(&e[i], p) <= texel_m) {
+        if (cosine >= TILE_COS_25 && plane_gap(&e[i], p) <= texel_m) {
             return &e[i];
         }
         if (cosine > best_cosine) {
@@ -71,7 +71,7 @@ static element *find_element(element *e, int32_t *count, lmb_vec3 p, lmb_vec3 n,
             best = i;
         }
     }
-    if (*count == ELEMENTS) {
+    if (*count == MAX_BLOCK_SURFACES) {
         return &e[best];
     }
     memset(&e[*count], 0, sizeof *e);
@@ -80,7 +80,7 @@ static element *find_element(element *e, int32_t *count, lmb_vec3 p, lmb_vec3 n,
     return &e[(*count)++];
 }
 
-static void add_texel(element *e, const lmb_tile *t, int k, const float power[3], float x, float y)
+static void add_lit_texel(element *e, const lmb_tile *t, int k, const float power[3], float x, float y)
 {
     float weight = power[0] + power[1] + power[2];
     e->position =
@@ -99,7 +99,7 @@ static void add_texel(element *e, const lmb_tile *t, int k, const float power[3]
 }
 
 /* Side of the quad in texels, from the spread of the texels along one axis. Exact for a full block. */
-static float spread(float sum, float sum2, float count)
+static float spread_of_means(float sum, float sum2, float count)
 {
     float mean = sum / count, variance = maxf(sum2 / count - mean * mean, 0.0f) + 1.0f / 12.0f;
     return sqrtf(12.0f * variance);
@@ -108,7 +108,7 @@ static float spread(float sum, float sum2, float count)
 static void make_point(lmb_point *out, const element *e, const lmb_shadow_map *map, const lmb_view *v)
 {
     float n = (float)e->count, per_weight = 1.0f / e->weight;
-    float side_x = spread(e->x, e->xx, n), side_y = spread(e->y, e->yy, n);
+    float side_x = spread_of_means(e->x, e->xx, n), side_y = spread_of_means(e->y, e->yy, n);
     float fit = 0.5f * sqrtf(n / (side_x * side_y)); /* half sides of a quad with the texels' area */
     memset(out, 0, sizeof *out);
     out->position = add3(e->first, mul3(e->position, per_weight));
@@ -129,16 +129,16 @@ static int32_t block_of(const lmb_grouping *grouping)
 
 static int is_block(int32_t n) { return n == 1 || n == 2 || n == 4 || n == 8; }
 
-typedef struct collector {
+typedef struct point_collector {
     lmb_points *points;
     const lmb_scene *scene;
     const lmb_light *light;
     const lmb_shadow_map *map;
     int32_t face, block;
-} collector;
+} point_collector;
 
 /* The texel's owner, or a dummy. */
-static uint32_t *owner_of(const collector *c, uint32_t *nowhere, int32_t x, int32_t y)
+static uint32_t *owner_of(const point_collector *c, uint32_t *nowhere, int32_t x, int32_t y)
 {
     const uint32_t size = (uint32_t)c->map->size;
     lmb_points *p = c->points;
@@ -146,10 +146,10 @@ static uint32_t *owner_of(const collector *c, uint32_t *nowhere, int32_t x, int3
 }
 
 /* Collects the block with (bx, by) of the tile as first texel. */
-static lmb_status collect_block(const collector *c, const lmb_tile *tile, int32_t bx, int32_t by)
+static lmb_status collect_block(const point_collector *c, const lmb_tile *tile, int32_t bx, int32_t by)
 {
     const lmb_view *v = &c->map->view[c->face];
-    element e[ELEMENTS];
+    element e[MAX_BLOCK_SURFACES];
     int32_t count = 0;
     float middle = 0.5f * (float)(c->block - 1),
           texel = 2.0f * maxf(v->half_width, v->half_height) / (float)c->map->size;
@@ -169,7 +169,7 @@ static lmb_status collect_block(const collector *c, const lmb_tile *tile, int32_
                 lmb_vec3 n = vec3(tile->face[0][k], tile->face[1][k], tile->face[2][k]);
                 float texel_m = texel * (v->kind == LMB_PERSPECTIVE ? tile->depth[k] : 1.0f);
                 element *own = find_element(e, &count, p, n, texel_m);
-                add_texel(own, tile, k, power, (float)x - middle, (float)y - middle);
+                add_lit_texel(own, tile, k, power, (float)x - middle, (float)y - middle);
                 *owner = c->points->count + (uint32_t)(own - e);
             }
         }
@@ -188,7 +188,7 @@ static lmb_status collect_block(const collector *c, const lmb_tile *tile, int32_
 }
 
 /* A row of blocks through all tiles of the row, so that points and cells come in row order. */
-static lmb_status collect_block_row(const collector *c, const lmb_kernels *kernels, lmb_tile *tile, int32_t y)
+static lmb_status collect_block_row(const point_collector *c, const lmb_kernels *kernels, lmb_tile *tile, int32_t y)
 {
     int32_t side = c->map->size / c->block;
     for (int32_t x = 0; x < c->map->size; x += c->block) {
@@ -212,7 +212,7 @@ lmb_status lmb_points_collect(lmb_points *points, const lmb_kernels *kernels, lm
                               const lmb_scene *scene, const lmb_light *light, const lmb_shadow_map *map, int32_t face,
                               int32_t tile_y0, int32_t tile_y1, const lmb_grouping *grouping)
 {
-    collector c;
+    point_collector c;
     int32_t block = block_of(grouping);
     if (points == NULL || points->data == NULL || kernels == NULL || scratch == NULL || scene == NULL ||
         light == NULL || map == NULL || (uint32_t)face >= (uint32_t)map->faces || tile_y0 < 0 ||
@@ -281,7 +281,7 @@ int lmb_points_have_room(const lmb_points *points, const lmb_shadow_map *map, co
     const uint64_t side = (uint64_t)(map->size / block), cells = side * side,
                    texels = points->owner != NULL ? (uint64_t)map->size * (uint64_t)map->size : 0;
     return texels <= points->owner_cap - points->owner_count && cells < points->cell_cap &&
-           ELEMENTS * cells <= points->cap - points->count;
+           MAX_BLOCK_SURFACES * cells <= points->cap - points->count;
 }
 
 lmb_status lmb_points_part(const lmb_points *points, const lmb_kernels *kernels, lmb_tile *scratch,
@@ -293,8 +293,8 @@ lmb_status lmb_points_part(const lmb_points *points, const lmb_kernels *kernels,
     if (p.first_row == p.past_row) {
         return LMB_OK;
     }
-    own.data += points->count + ELEMENTS * p.first_cell;
-    own.cap = ELEMENTS * (p.past_cell - p.first_cell);
+    own.data += points->count + MAX_BLOCK_SURFACES * p.first_cell;
+    own.cap = MAX_BLOCK_SURFACES * (p.past_cell - p.first_cell);
     own.count = 0;
     if (p.first_row > 0) { /* row 0 counts the face */
         ++own.faces;
@@ -329,7 +329,7 @@ void lmb_points_put_together(lmb_points *points, const lmb_shadow_map *map, int3
             continue;
         }
         const uint32_t count = points->cells[p.first_cell];
-        memmove(points->data + points->count, points->data + so_far + ELEMENTS * p.first_cell,
+        memmove(points->data + points->count, points->data + so_far + MAX_BLOCK_SURFACES * p.first_cell,
                 count * sizeof *points->data);
         points->cells[p.first_cell] = 0;
         move_owners(points, map, &p);

@@ -75,4 +75,29 @@ float lmb_triangle_factor(lmb_vec3 at, lmb_vec3 face, lmb_vec3 normal, const lmb
     const float sum = edges_sum(own, 3, face, normal);
     return maxf(dot3(side, axis) < 0.0f ? sum : -sum, 0.0f) * 0.15915494f / area;
 }
+
+lmb_vec3 lmb_triangle_vector(lmb_vec3 at, lmb_vec3 face, const lmb_vec3 corner[3], lmb_vec3 axis)
+{
+    lmb_vec3 own[3], clipped[POLYGON_CORNERS + 1], sum = vec3(0.0f, 0.0f, 0.0f);
+    float reach2 = 0.0f;
+    if (corner == NULL) {
+        return sum;
+    }
+    for (int i = 1; i < 3; ++i) {
+        reach2 = maxf(reach2, dot3(sub3(corner[i], corner[0]), sub3(corner[i], corner[0])));
+    }
+    if (!polygon_corners(own, at, face, corner, 3, POLYGON_FLAT * sqrtf(reach2), axis)) {
+        return sum;
+    }
+    const int n = polygon_clip(clipped, own, 3, face);
+    for (int i = 0; i < n; ++i) {
+        const lmb_vec3 a = clipped[i], b = clipped[i + 1 < n ? i + 1 : 0], edge = cross3(a, b);
+        const float sine = length3(edge);
+        if (sine > 1e-18f) {
+            const float angle = lmb_atan2(sine, dot3(a, b));
+            sum = add3(sum, vec3(angle * (edge.x / sine), angle * (edge.y / sine), angle * (edge.z / sine)));
+        }
+    }
+    return mul3(sum, -0.15915494f);
+}
 #endif

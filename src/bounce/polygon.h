@@ -60,28 +60,4 @@ static inline int polygon_clip(lmb_vec3 out[POLYGON_CORNERS + 1], const lmb_vec3
     return count;
 }
 
-/* polygon_vector: the signed form factor of a triangle along each axis. The form factor along any direction is the dot
- * product with it. Corners go round `axis`, the triangle's normal. The triangle is clipped to the horizon of `face`. */
-static inline lmb_vec3 polygon_vector(lmb_vec3 at, lmb_vec3 face, const lmb_vec3 triangle[3], lmb_vec3 axis)
-{
-    lmb_vec3 own[3], corner[POLYGON_CORNERS + 1], sum = vec3(0.0f, 0.0f, 0.0f);
-    float reach2 = 0.0f;
-    for (int i = 1; i < 3; ++i) {
-        reach2 = maxf(reach2, dot3(sub3(triangle[i], triangle[0]), sub3(triangle[i], triangle[0])));
-    }
-    if (!polygon_corners(own, at, face, triangle, 3, POLYGON_FLAT * sqrtf(reach2), axis)) {
-        return sum;
-    }
-    const int n = polygon_clip(corner, own, 3, face);
-    for (int i = 0; i < n; ++i) {
-        const lmb_vec3 a = corner[i], b = corner[i + 1 < n ? i + 1 : 0], edge = cross3(a, b);
-        const float sine = length3(edge);
-        if (sine > 1e-18f) {
-            const float angle = lmb_atan2(sine, dot3(a, b));
-            sum = add3(sum, vec3(angle * (edge.x / sine), angle * (edge.y / sine), angle * (edge.z / sine)));
-        }
-    }
-    return mul3(sum, -0.15915494f);
-}
-
 #endif

@@ -18,31 +18,38 @@
 
 #if LMB_TREES
 
-#define FAR     3.0   /* times the mean distance from the centre: limit of members */
-#define TOUCHES 4.0f  /* times the box's size: limit for geometry that touches it and joins it */
-#define SPARE   0.015625f /* share of the area that `wide` may leave out */
-#define FINER   0.0125f   /* of a face's width: a place with fewer than 13 of 1,024 texels gets a separate face */
-enum { ROUNDS = 8, LIMITS = 5, DEEPER = 3, SAMPLES = 8192, RATIO = 16, FEW = 2 };
+#define MAX_MEAN_DISTANCES 3.0   /* times the mean distance from the centre: limit of members */
+#define MAX_TOUCHING_SIZE  4.0f  /* times the box's size: limit for geometry that touches it and joins it */
+#define MAX_SPARE_AREA     0.015625f /* share of the area that `wide` may leave out */
+#define MAX_FINER_SHARE    0.0125f /* of a face's width: a place with under 13 of 1,024 texels gets a face */
+enum {
+    MAX_CLUMP_ROUNDS = 8,
+    MAX_SIZE_LIMITS = 5,
+    MAX_FINER_CORES = 3,
+    MAX_SAMPLE_TRIANGLES = 8192,
+    MAX_FACE_RATIO = 16,
+    MIN_CLUMP_TRIANGLES = 2
+};
 
-typedef struct box {
+typedef struct core_box {
     lmb_vec3 low, high;
-} box;
+} core_box;
 
-static float size_of(const box *b) { return largest3(sub3(b->high, b->low)); }
+static float size_of_box(const core_box *b) { return largest3(sub3(b->high, b->low)); }
 
-static void join(box *inout, const box *b)
+static void join_core_box(core_box *inout, const core_box *b)
 {
     inout->low = min3(inout->low, b->low);
     inout->high = max3(inout->high, b->high);
 }
 
-static int overlap(const box *a, const box *b)
+static int overlap(const core_box *a, const core_box *b)
 {
     return a->low.x <= b->high.x && a->low.y <= b->high.y && a->low.z <= b->high.z && b->low.x <= a->high.x &&
            b->low.y <= a->high.y && b->low.z <= a->high.z;
 }
 
-static int take(box *b, float *area, const lmb_scene *scene, uint32_t id)
+static int take_triangle(core_box *b, float *area, const lmb_scene *scene, uint32_t id)
 {
     lmb_triangle t;
     lmb_vec3 normal;
@@ -56,13 +63,13 @@ static int take(box *b, float *area, const lmb_scene *scene, uint32_t id)
 
 /* Triangles below a size, in a box, near a centre. */
 typedef struct clump {
-    box in;
+    core_box in;
     float under;
     double at[3], reach; /* m */
     uint32_t count;
 } clump;
 
-static double distance_from(const clump *c, const box *b)
+static double distance_from(const clump *c, const core_box *b)
 {
     const double x = 0.5 * ((double)b->low.x + (double)b->high.x) - c->at[0],
                  y = 0.5 * ((double)b->low.y + (double)b->high.y) - c->at[1],
@@ -71,21 +78,21 @@ static double distance_from(const clump *c, const box *b)
     return (double)sqrtf(d);
 }
 
-static int belongs(const clump *c, const box *b)
+static int belongs(const clump *c, const core_box *b)
 {
-    return size_of(b) < c->under && overlap(b, &c->in) && distance_from(c, b) <= c->reach;
+    return size_of_box(b) < c->under && overlap(b, &c->in) && distance_from(c, b) <= c->reach;
 }
 
 /* Sums over the members: area, and area times centre; or, in sum[1], area times distance. */
-static uint32_t sums(double sum[4], const clump *c, const lmb_scene *scene, uint32_t step, int distances)
+static uint32_t clump_sums(double sum[4], const clump *c, const lmb_scene *scene, uint32_t step, int distances)
 {
     const uint32_t all = lmb_scene_triangles(scene);
     uint32_t count = 0;
     sum[0] = sum[1] = sum[2] = sum[3] = 0.0;
     for (uint32_t id = 1; id <= all && id >= 1; id += step) {
-        box b;
+        core_box b;
         float area;
-        if (take(&b, &area, scene, id) && belongs(c, &b)) {
+        if (take_triangle(&b, &area, scene, id) && belongs(c, &b)) {
             const double w = 0.5 * (double)area;
             ++count;
             sum[0] += (double)area;
@@ -108,10 +115,10 @@ static int find_clump(clump *c, const lmb_scene *scene, uint32_t step)
     c->at[0] = c->at[1] = c->at[2] = 0.0;
     c->reach = 1e30;
     c->count = 0;
-    for (int round = 0; round < ROUNDS; ++round) {
+    for (int round = 0; round < MAX_CLUMP_ROUNDS; ++round) {
         const uint32_t before = c->count;
-        c->count = sums(sum, c, scene, step, 0);
-        if (c->count < FEW || !(sum[0] > 0.0)) {
+        c->count = clump_sums(sum, c, scene, step, 0);
+        if (c->count < MIN_CLUMP_TRIANGLES || !(sum[0] > 0.0)) {
             return 0;
         }
         if (c->count == before) {
@@ -120,35 +127,35 @@ static int find_clump(clump *c, const lmb_scene *scene, uint32_t step)
         for (int i = 0; i < 3; ++i) {
             c->at[i] = sum[1 + i] / sum[0];
         }
-        sums(sum, c, scene, step, 1);
-        c->reach = FAR * sum[1] / sum[0];
+        clump_sums(sum, c, scene, step, 1);
+        c->reach = MAX_MEAN_DISTANCES * sum[1] / sum[0];
     }
     return 1;
 }
 
 /* The clump's own box, then joined with geometry that touches it. in, rest: area in c->in that is inside `out`, and
  * outside. */
-static void box_of(box *out, float *in, float *rest, const clump *c, const lmb_scene *scene)
+static void box_of_clump(core_box *out, float *in, float *rest, const clump *c, const lmb_scene *scene)
 {
     const uint32_t all = lmb_scene_triangles(scene);
-    box own = {{3e38f, 3e38f, 3e38f}, {-3e38f, -3e38f, -3e38f}}, b;
+    core_box own = {{3e38f, 3e38f, 3e38f}, {-3e38f, -3e38f, -3e38f}}, b;
     float area;
     double inside = 0.0, outside = 0.0;
     for (uint32_t id = 1; id <= all; ++id) {
-        if (take(&b, &area, scene, id) && belongs(c, &b)) {
-            join(&own, &b);
+        if (take_triangle(&b, &area, scene, id) && belongs(c, &b)) {
+            join_core_box(&own, &b);
         }
     }
-    const float max = TOUCHES * size_of(&own);
+    const float max = MAX_TOUCHING_SIZE * size_of_box(&own);
     *out = own;
     for (uint32_t id = 1; id <= all; ++id) {
-        if (take(&b, &area, scene, id) && overlap(&b, &own) && size_of(&b) <= max) {
-            join(out, &b);
+        if (take_triangle(&b, &area, scene, id) && overlap(&b, &own) && size_of_box(&b) <= max) {
+            join_core_box(out, &b);
         }
     }
     for (uint32_t id = 1; id <= all; ++id) {
-        if (take(&b, &area, scene, id) && overlap(&b, &c->in)) {
-            const double held = overlap(&b, out) ? (double)minf(area, 2.0f * size_of(out) * size_of(out)) : 0.0;
+        if (take_triangle(&b, &area, scene, id) && overlap(&b, &c->in)) {
+            const double held = overlap(&b, out) ? (double)minf(area, 2.0f * size_of_box(out) * size_of_box(out)) : 0.0;
             inside += held;
             outside += (double)area - held;
         }
@@ -157,37 +164,40 @@ static void box_of(box *out, float *in, float *rest, const clump *c, const lmb_s
     *rest = (float)outside;
 }
 
-static uint32_t step_of(const lmb_scene *scene) { return lmb_scene_triangles(scene) / SAMPLES + 1; }
+static uint32_t step_of_samples(const lmb_scene *scene)
+{
+    return lmb_scene_triangles(scene) / MAX_SAMPLE_TRIANGLES + 1;
+}
 
 /* The box that contains nearly everything: at most half the scene's size, or the scene itself. */
-static void find_wide(box *inout, const lmb_scene *scene)
+static void find_wide(core_box *inout, const lmb_scene *scene)
 {
     clump c;
-    box b;
+    core_box b;
     float in, rest;
     c.in = *inout;
-    c.under = 0.5f * size_of(inout);
-    if (find_clump(&c, scene, step_of(scene))) {
-        box_of(&b, &in, &rest, &c, scene);
-        *inout = size_of(&b) <= 0.5f * size_of(inout) && rest <= SPARE * in ? b : *inout;
+    c.under = 0.5f * size_of_box(inout);
+    if (find_clump(&c, scene, step_of_samples(scene))) {
+        box_of_clump(&b, &in, &rest, &c, scene);
+        *inout = size_of_box(&b) <= 0.5f * size_of_box(inout) && rest <= MAX_SPARE_AREA * in ? b : *inout;
     }
 }
 
 /* A place in a box, no wider than an eightieth of the box. Returns 0 if there is none. */
-static int find_finer(box *inout, const lmb_scene *scene)
+static int find_finer(core_box *inout, const lmb_scene *scene)
 {
     clump c;
-    float limit = 0.5f * size_of(inout), in, rest;
+    float limit = 0.5f * size_of_box(inout), in, rest;
     c.in = *inout;
-    for (int i = 0; i < LIMITS; ++i, limit *= 0.25f) {
-        box b;
+    for (int i = 0; i < MAX_SIZE_LIMITS; ++i, limit *= 0.25f) {
+        core_box b;
         c.under = limit;
-        if (!find_clump(&c, scene, step_of(scene))) {
+        if (!find_clump(&c, scene, step_of_samples(scene))) {
             return 0;
         }
-        if (c.reach < (double)(size_of(inout) * FINER)) {
-            box_of(&b, &in, &rest, &c, scene);
-            if (size_of(&b) <= size_of(inout) * FINER) {
+        if (c.reach < (double)(size_of_box(inout) * MAX_FINER_SHARE)) {
+            box_of_clump(&b, &in, &rest, &c, scene);
+            if (size_of_box(&b) <= size_of_box(inout) * MAX_FINER_SHARE) {
                 *inout = b;
                 return 1;
             }
@@ -196,24 +206,24 @@ static int find_finer(box *inout, const lmb_scene *scene)
     return 0;
 }
 
-/* Number of steps by RATIO, rounded up, from one size to another. */
+/* Number of steps by MAX_FACE_RATIO, rounded up, from one size to another. */
 static int steps_between(float small, float large)
 {
     int n = 0;
-    for (; small < large && n < LMB_CORE_FACES; small *= (float)RATIO) {
+    for (; small < large && n < LMB_CORE_FACES; small *= (float)MAX_FACE_RATIO) {
         ++n;
     }
     return n;
 }
 
-static int is_box(const box *b, lmb_vec3 low, lmb_vec3 high)
+static int is_box_between(const core_box *b, lmb_vec3 low, lmb_vec3 high)
 {
     return memcmp(&b->low, &low, sizeof low) == 0 && memcmp(&b->high, &high, sizeof high) == 0;
 }
 
 void lmb_scene_core(lmb_core *out, const lmb_scene *scene)
 {
-    box wide, core;
+    core_box wide, core;
     if (out == NULL) {
         return;
     }
@@ -225,11 +235,11 @@ void lmb_scene_core(lmb_core *out, const lmb_scene *scene)
     wide.high = scene->bounds_max;
     find_wide(&wide, scene);
     core = wide;
-    for (int i = 0; i < DEEPER && find_finer(&core, scene); ++i) {
+    for (int i = 0; i < MAX_FINER_CORES && find_finer(&core, scene); ++i) {
     }
-    const int beyond = !is_box(&wide, scene->bounds_min, scene->bounds_max);
-    const int within = 1 + steps_between(size_of(&core), size_of(&wide));
-    if (beyond + within > 1 && size_of(&core) > 0.0f) {
+    const int beyond = !is_box_between(&wide, scene->bounds_min, scene->bounds_max);
+    const int within = 1 + steps_between(size_of_box(&core), size_of_box(&wide));
+    if (beyond + within > 1 && size_of_box(&core) > 0.0f) {
         out->low = core.low;
         out->high = core.high;
         out->wide_low = wide.low;

@@ -12,7 +12,8 @@ static int is_surface(const lmb_surface *s, int32_t format, const lmb_view *view
 }
 
 /* Stores a tile's values in the pixels of `s`, as many for each as it has channels. */
-static void store(const lmb_surface *s, const float (*values)[LMB_TILE_PIXELS], int32_t channels, const lmb_tile *t)
+static void store_channels(const lmb_surface *s, const float (*values)[LMB_TILE_PIXELS], int32_t channels,
+                           const lmb_tile *t)
 {
     for (int32_t k = 0; s != NULL && k < LMB_TILE_PIXELS; ++k) {
         const int32_t x = t->x + k % LMB_TILE, y = t->y + k / LMB_TILE;
@@ -45,9 +46,9 @@ lmb_status lmb_gbuffer_band(const lmb_surface *depth, const lmb_surface *normal,
         if (status != LMB_OK) {
             return status;
         }
-        store(depth, &shown->depth, 1, shown);
-        store(normal, shown->normal, 3, shown);
-        store(albedo, shown->albedo, 3, shown);
+        store_channels(depth, &shown->depth, 1, shown);
+        store_channels(normal, shown->normal, 3, shown);
+        store_channels(albedo, shown->albedo, 3, shown);
     }
     return LMB_OK;
 }

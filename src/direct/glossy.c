@@ -23,7 +23,7 @@ static void clear(lmb_glossy *out)
 }
 
 /* F0 and roughness of pixel k: from the material, or per texel if there is a metal map. */
-static void set_look(lmb_glossy *out, float *roughness, int k, const lmb_material *m, lmb_painter *painter)
+static void set_lobe_look(lmb_glossy *out, float *roughness, int k, const lmb_material *m, lmb_painter *painter)
 {
     float metallic = 0.0f, base[3] = {0.0f, 0.0f, 0.0f};
     *roughness = m->roughness;
@@ -36,7 +36,7 @@ static void set_look(lmb_glossy *out, float *roughness, int k, const lmb_materia
     }
 }
 
-static void set_pixel(lmb_glossy *out, int k, float roughness, lmb_vec3 normal, lmb_vec3 towards)
+static void set_lobe_pixel(lmb_glossy *out, int k, float roughness, lmb_vec3 normal, lmb_vec3 towards)
 {
     const float alpha = maxf(roughness * roughness, LMB_MIN_ALPHA);
     out->alpha2[k] = alpha * alpha;
@@ -70,10 +70,10 @@ int lmb_glossy_tile(lmb_glossy *out, const lmb_tile *tile, const lmb_view *view,
                 clear(out);
                 lmb_painter_begin(&painter, scene, view, tile);
             }
-            set_look(out, &roughness, k, m, &painter);
-            set_pixel(out, k, roughness, tile_vec(tile->normal, k),
-                      view->kind == LMB_PERSPECTIVE ? normalize3(sub3(view->eye, tile_vec(tile->position, k)))
-                                                    : view->back);
+            set_lobe_look(out, &roughness, k, m, &painter);
+            set_lobe_pixel(out, k, roughness, tile_vec(tile->normal, k),
+                           view->kind == LMB_PERSPECTIVE ? normalize3(sub3(view->eye, tile_vec(tile->position, k)))
+                                                         : view->back);
         }
     }
     return out->pixels != 0;
@@ -89,7 +89,7 @@ lmb_status lmb_glossy_direct(lmb_glossy *inout, const lmb_kernels *kernels, cons
     return LMB_OK;
 }
 
-static lobe_pixels pixel_of(const lmb_glossy *glossy, const lmb_tile *tile, int k)
+static lobe_pixels lobe_of_pixel(const lmb_glossy *glossy, const lmb_tile *tile, int k)
 {
     lobe_pixels p;
     p.n = lane3_of(tile_vec(tile->normal, k));
@@ -107,7 +107,7 @@ static lane3 unit(lmb_vec3 to)
 
 void lmb_glossy_add(lmb_glossy *inout, const lmb_tile *tile, int k, lmb_vec3 to, float angle, lmb_vec3 light)
 {
-    const lobe_pixels p = pixel_of(inout, tile, k);
+    const lobe_pixels p = lobe_of_pixel(inout, tile, k);
     lane3 sum = lane3_splat(inout->rgb[0][k], inout->rgb[1][k], inout->rgb[2][k]);
     sum = lobe_add(sum, &p, unit(to), lane_splat(angle), lane3_of(light));
     lobe_store(inout, k, sum);
@@ -115,7 +115,7 @@ void lmb_glossy_add(lmb_glossy *inout, const lmb_tile *tile, int k, lmb_vec3 to,
 
 float lmb_glossy_factor(const lmb_glossy *glossy, const lmb_tile *tile, int k, lmb_vec3 to, float angle)
 {
-    const lobe_pixels p = pixel_of(glossy, tile, k);
+    const lobe_pixels p = lobe_of_pixel(glossy, tile, k);
     float factor;
     lane rise;
     const lane value = lobe_value(&rise, &p, unit(to), lane_splat(angle));

@@ -20,15 +20,15 @@
 #include "part.h"
 
 /* Position of the receiver in a face. */
-typedef struct place {
+typedef struct lit_place {
     const lmb_view *view;
     int32_t face;
     float x, y; /* texels */
     float w;    /* m along the face's axis */
     lmb_vec3 towards; /* from the receiver to the light; directional: unit length */
-} place;
+} lit_place;
 
-static int32_t choose_face(const lmb_shadow_map *map, lmb_vec3 d)
+static int32_t choose_shadow_face(const lmb_shadow_map *map, lmb_vec3 d)
 {
     lmb_vec3 a = vec3(absf(d.x), absf(d.y), absf(d.z));
     if (map->faces == 1) {
@@ -41,10 +41,11 @@ static int32_t choose_face(const lmb_shadow_map *map, lmb_vec3 d)
 }
 
 /* Returns 0 if the receiver is outside the map: nothing can shadow it there (spots: it is outside the cone). */
-static int find_place(place *out, const lmb_shadow_map *map, const lmb_light *light, lmb_vec3 p)
+static int find_place(lit_place *out, const lmb_shadow_map *map, const lmb_light *light, lmb_vec3 p)
 {
     const int directional = light_kind_is(light->kind, LIGHT_FAR);
-    int32_t f = LMB_TREES && directional ? lmb_shadow_map_part(map, p) : choose_face(map, sub3(p, light->position));
+    int32_t f =
+        LMB_TREES && directional ? lmb_shadow_map_part(map, p) : choose_shadow_face(map, sub3(p, light->position));
     const lmb_view *v = &map->view[f];
     lmb_vec3 d = sub3(p, v->eye);
     float w = -dot3(v->back, d), size = (float)map->size;
@@ -80,72 +81,73 @@ static float texel_depth(const lmb_fill_window *map, uint32_t x, uint32_t y)
 
 /* Possible rounding of the position, m: 2^-15 of the pixel's distance for the position in the triangle's plane, because
  * edges are snapped to fractions of a pixel; 2^-22 of the coordinates for a few roundings of the resolve. */
-static float noise_of(const lmb_shadow_query *query, const lmb_receiver *r)
+static float noise_of_receiver(const lmb_shadow_query *query, const lmb_receiver *r)
 {
     return 3.0517578e-5f * length3(sub3(r->position, query->view->eye)) + 2.3841858e-7f * length3(r->position);
 }
 
-/* Results of a ray from a place to the light against a triangle. THROUGH is an extra bit: the triangle's plane contains
- * the place. */
-enum { BESIDE = 0, OVER = 1, SHADOWS = 2, THROUGH = 4 };
+/* Results of a ray from a place to the light against a triangle. TEXEL_THROUGH is an extra bit: the triangle's plane
+ * contains the place. */
+enum { TEXEL_BESIDE = 0, TEXEL_OVER = 1, TEXEL_SHADOWS = 2, TEXEL_THROUGH = 4 };
 
 /* Tests whether a triangle lies over a place in the map, with the place behind the triangle's plane. n: normal of the
  * triangle, of any length. noise: m, of the place. */
-static int ask_from(lmb_vec3 *n, const lmb_shadow_query *query, const lmb_triangle *t, lmb_vec3 p, const place *at,
+static int ask_from(lmb_vec3 *n, const lmb_shadow_query *query, const lmb_triangle *t, lmb_vec3 p, const lit_place *at,
                     float noise)
 {
     lmb_vec3 a = sub3(t->corner[0], p), b = sub3(t->corner[1], p), c = sub3(t->corner[2], p);
     *n = cross3(sub3(b, a), sub3(c, a));
     const float nn = dot3(*n, *n);
     if (!(nn > 1e-36f)) {
-        return BESIDE;
+        return TEXEL_BESIDE;
     }
     float height = dot3(*n, a) / sqrtf(nn); /* of the plane over the place, m, signed */
-    const int through = absf(height) <= noise ? THROUGH : 0;
+    const int through = absf(height) <= noise ? TEXEL_THROUGH : 0;
     /* Signs of the ray to the light against the edges: all equal if it passes inside. */
     float e0 = dot3(at->towards, cross3(b, c)), e1 = dot3(at->towards, cross3(c, a)),
           e2 = dot3(at->towards, cross3(a, b));
     if (!((e0 >= 0.0f && e1 >= 0.0f && e2 >= 0.0f) || (e0 <= 0.0f && e1 <= 0.0f && e2 <= 0.0f))) {
-        return BESIDE | through;
+        return TEXEL_BESIDE | through;
     }
     float rise = dot3(*n, at->towards) / sqrtf(nn); /* slope towards the light, on the same scale */
     float sum = e0 + e1 + e2;
     if (height * rise <= 0.0f || through || sum == 0.0f) {
-        return OVER | through; /* the plane is behind the place, or contains it */
+        return TEXEL_OVER | through; /* the plane is behind the place, or contains it */
     }
     if (absf(height) >= absf(rise) && at->view->kind == LMB_PERSPECTIVE) {
-        return OVER; /* beyond the light */
+        return TEXEL_OVER; /* beyond the light */
     }
-    return lmb_triangle_opaque(t, query->scene, e1 / sum, e2 / sum) ? SHADOWS : BESIDE;
+    return lmb_triangle_opaque(t, query->scene, e1 / sum, e2 / sum) ? TEXEL_SHADOWS : TEXEL_BESIDE;
 }
 
 /* For a receiver on the line of two triangles, as on a floor at the foot of a wall, only rounding would decide which
  * side of the wall it is on. A wall lit from behind would have bright specks along the foot. The eye sees the receiver,
  * so a place a little nearer to the eye, by at most 64 times the noise, is on the receiver's side and is tested too. */
-static int ask_triangle(const lmb_shadow_query *query, uint32_t id, const lmb_receiver *r, const place *at, float noise)
+static int ask_triangle(const lmb_shadow_query *query, uint32_t id, const lmb_receiver *r, const lit_place *at,
+                        float noise)
 {
     lmb_triangle t;
     lmb_vec3 n;
     if (!lmb_triangle_fetch(&t, query->scene, id)) {
-        return BESIDE;
+        return TEXEL_BESIDE;
     }
     const int answer = ask_from(&n, query, &t, r->position, at, noise);
-    if ((answer & THROUGH) != 0) {
+    if ((answer & TEXEL_THROUGH) != 0) {
         const lmb_view *v = query->view;
         const lmb_vec3 way = v->kind == LMB_PERSPECTIVE ? sub3(v->eye, r->position) : v->back;
         const float change = absf(dot3(n, way)), length = sqrtf(dot3(n, n));
         if (16.0f * change >= length * length3(way) &&
             ask_from(&n, query, &t, add3(r->position, mul3(way, 4.0f * noise * length / change)), at, noise) ==
-                SHADOWS) {
-            return SHADOWS;
+                TEXEL_SHADOWS) {
+            return TEXEL_SHADOWS;
         }
     }
-    return answer & (OVER | SHADOWS);
+    return answer & (TEXEL_OVER | TEXEL_SHADOWS);
 }
 
 /* Compares the nearest texel's surface with the receiver's plane at the centre of the texel. noise: m, of the
  * receiver's position. */
-static int lit_by_depth(const lmb_shadow_query *query, const place *at, const lmb_receiver *r, float noise)
+static int lit_by_depth(const lmb_shadow_query *query, const lit_place *at, const lmb_receiver *r, float noise)
 {
     const int32_t last = query->map->size - 1, x = mini((int32_t)at->x, last), y = mini((int32_t)at->y, last);
     const lmb_view *v = at->view;
@@ -180,7 +182,7 @@ void lmb_shadow_ask(lmb_shadow_query *out, const lmb_shadow_map *map, const lmb_
 }
 
 /* The ids of the four texels around the place. Returns 1 if all are the receiver's own. */
-static int four_ids(uint32_t seen[4], lmb_shadow_query *query, const place *at, uint32_t own)
+static int four_ids(uint32_t seen[4], lmb_shadow_query *query, const lit_place *at, uint32_t own)
 {
     const float left = at->x - 0.5f, top = at->y - 0.5f; /* above -1 */
     const int32_t x0 = (int32_t)left - (left < 0.0f), y0 = (int32_t)top - (top < 0.0f), last = query->map->size - 1;
@@ -199,13 +201,13 @@ static int four_ids(uint32_t seen[4], lmb_shadow_query *query, const place *at, 
 
 int lmb_is_lit(lmb_shadow_query *query, const lmb_receiver *r)
 {
-    place at;
+    lit_place at;
     int over = 0;
     uint32_t seen[4];
     if (!find_place(&at, query->map, query->light, r->position) || four_ids(seen, query, &at, r->id)) {
         return 1;
     }
-    const float noise = noise_of(query, r);
+    const float noise = noise_of_receiver(query, r);
     for (int q = 0; q < 4; ++q) {
         int known = 0;
         for (int p = 0; p < q; ++p) {
@@ -215,10 +217,10 @@ int lmb_is_lit(lmb_shadow_query *query, const lmb_receiver *r)
             over = 1;
         } else if (seen[q] != 0 && !known) {
             int answer = ask_triangle(query, seen[q], r, &at, noise);
-            if (answer == SHADOWS) {
+            if (answer == TEXEL_SHADOWS) {
                 return 0;
             }
-            over |= answer == OVER;
+            over |= answer == TEXEL_OVER;
         }
     }
     return over || lit_by_depth(query, &at, r, noise);

@@ -48,7 +48,7 @@ size_t lmb_shadow_map_bytes(int32_t faces, int32_t size, int32_t id_format)
 }
 
 /* Axes of a view along `forward`: up is the world axis least along it. */
-static void set_axes(lmb_view *v, lmb_vec3 forward)
+static void set_view_axes(lmb_view *v, lmb_vec3 forward)
 {
     lmb_vec3 a = vec3(absf(forward.x), absf(forward.y), absf(forward.z));
     lmb_vec3 up = a.y <= a.x && a.y <= a.z ? vec3(0, 1, 0) : a.x <= a.z ? vec3(1, 0, 0) : vec3(0, 0, 1);
@@ -57,15 +57,15 @@ static void set_axes(lmb_view *v, lmb_vec3 forward)
     v->up = cross3(v->back, v->right);
 }
 
-typedef struct box {
+typedef struct light_box {
     lmb_vec3 low, high;
-} box;
+} light_box;
 
 static float diagonal_of(lmb_vec3 low, lmb_vec3 high) { return maxf(length3(sub3(high, low)), 1e-24f); }
 
-static box box_mix(lmb_vec3 low, lmb_vec3 high, lmb_vec3 wide_low, lmb_vec3 wide_high, float share)
+static light_box box_mix(lmb_vec3 low, lmb_vec3 high, lmb_vec3 wide_low, lmb_vec3 wide_high, float share)
 {
-    box b;
+    light_box b;
     b.low = add3(low, mul3(sub3(wide_low, low), share));
     b.high = add3(high, mul3(sub3(wide_high, high), share));
     return b;
@@ -73,9 +73,9 @@ static box box_mix(lmb_vec3 low, lmb_vec3 high, lmb_vec3 wide_low, lmb_vec3 wide
 
 /* Contents of face f of a sun's map: the core; boxes of a sixteenth of a sixteenth .. of the wide one's size; the wide
  * one; the whole scene. */
-static box box_of_face(const lmb_scene *scene, int32_t f, int32_t faces)
+static light_box box_of_face(const lmb_scene *scene, int32_t f, int32_t faces)
 {
-    const box all = {scene->bounds_min, scene->bounds_max};
+    const light_box all = {scene->bounds_min, scene->bounds_max};
     if (!LMB_TREES || f == faces - 1) {
         return all;
     }
@@ -91,7 +91,7 @@ static box box_of_face(const lmb_scene *scene, int32_t f, int32_t faces)
                    f == 0 || !(wide > core) ? 0.0f : clampf((size - core) / (wide - core), 0.0f, 1.0f));
 }
 
-static lmb_vec3 half_of(const box *b) { return mul3(sub3(b->high, b->low), 0.5f); }
+static lmb_vec3 half_size_of_box(const light_box *b) { return mul3(sub3(b->high, b->low), 0.5f); }
 
 /* Half the extent along an axis of a box of half extents `half`. */
 static float reach_along(lmb_vec3 axis, lmb_vec3 half)
@@ -100,11 +100,11 @@ static float reach_along(lmb_vec3 axis, lmb_vec3 half)
 }
 
 /* An orthographic view along the light's axes that contains the whole box. */
-static void fit_directional(lmb_view *v, const lmb_light *light, const box *b)
+static void fit_directional(lmb_view *v, const lmb_light *light, const light_box *b)
 {
-    const lmb_vec3 half = half_of(b);
+    const lmb_vec3 half = half_size_of_box(b);
     const float margin = 1e-3f * diagonal_of(b->low, b->high);
-    set_axes(v, light->direction);
+    set_view_axes(v, light->direction);
     const float deep = reach_along(v->back, half) + margin;
     v->kind = LMB_ORTHOGRAPHIC;
     v->half_width = reach_along(v->right, half) + margin;
@@ -117,18 +117,18 @@ static void fit_directional(lmb_view *v, const lmb_light *light, const box *b)
 #if LMB_TREES
 /* The same for one of several boxes. The view is as deep as the scene, to contain casters above and receivers below.
  * The eye is at the box's centre, which keeps coordinates small. */
-static void fit_part(lmb_view *v, const lmb_light *light, const box *b, const lmb_scene *scene)
+static void fit_part(lmb_view *v, const lmb_light *light, const light_box *b, const lmb_scene *scene)
 {
-    const box all = {scene->bounds_min, scene->bounds_max};
+    const light_box all = {scene->bounds_min, scene->bounds_max};
     fit_directional(v, light, b);
     v->eye = mul3(add3(b->low, b->high), 0.5f);
     const float up = dot3(v->back, sub3(mul3(add3(all.low, all.high), 0.5f), v->eye));
-    const float deep = reach_along(v->back, half_of(&all)) + 1e-3f * diagonal_of(all.low, all.high);
+    const float deep = reach_along(v->back, half_size_of_box(&all)) + 1e-3f * diagonal_of(all.low, all.high);
     v->near_m = -up - deep;
     v->far_m = deep - up;
 }
 
-static int is_same(lmb_vec3 a, lmb_vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+static int is_same_corner(lmb_vec3 a, lmb_vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
 /* Extends the extents along a view's right, up and back, from the eye. */
 static void widen_by(lmb_vec3 *low, lmb_vec3 *high, const lmb_view *v, lmb_vec3 p)
@@ -157,7 +157,7 @@ static void fit_vertices(lmb_view *v, const lmb_scene *scene)
             }
         }
     }
-    if (!is_same(own_low, scene->bounds_min) || !is_same(own_high, scene->bounds_max)) {
+    if (!is_same_corner(own_low, scene->bounds_min) || !is_same_corner(own_high, scene->bounds_max)) {
         return;
     }
     const float margin = v->near_m;
@@ -170,7 +170,7 @@ static void fit_vertices(lmb_view *v, const lmb_scene *scene)
 #endif
 
 #if LMB_TREES
-#define WIDER 1.25f /* limit for widening a face to end at a texel border of the next */
+#define MAX_FACE_WIDENING 1.25f /* limit for widening a face to end at a texel border of the next */
 
 /* Along one axis: centre and half width of a face, relative to the centre of the next face with cells of width
  * `cell`. */
@@ -178,7 +178,7 @@ static int align_axis(float *middle, float *half, float whole, float cell)
 {
     const float first = floorf((*middle - *half + whole) / cell),
                 past = -floorf(-(*middle + *half + whole) / cell), wide = 0.5f * (past - first) * cell;
-    if (!(wide <= WIDER * *half)) {
+    if (!(wide <= MAX_FACE_WIDENING * *half)) {
         return 0;
     }
     *middle = (0.5f * (first + past)) * cell - whole;
@@ -209,7 +209,7 @@ static void align(lmb_view *inner, const lmb_view *outer, int32_t size)
 static void fit_spot(lmb_view *v, const lmb_light *light)
 {
     float c = light->cos_outer;
-    set_axes(v, light->direction);
+    set_view_axes(v, light->direction);
     v->half_width = v->half_height = sqrtf(maxf(1.0f - c * c, 1e-8f)) / c;
 }
 
@@ -250,7 +250,7 @@ static void fit_views(lmb_shadow_map *map, const lmb_light *light, const lmb_sce
         v->frame_width = v->frame_height = map->size;
         int meets = 1;
         if (light_kind_is(light->kind, LIGHT_FAR)) {
-            const box b = box_of_face(scene, f, map->faces);
+            const light_box b = box_of_face(scene, f, map->faces);
             fit_directional(v, light, &b);
 #if LMB_TREES
             if (map->faces > 1) {
@@ -262,7 +262,7 @@ static void fit_views(lmb_shadow_map *map, const lmb_light *light, const lmb_sce
         } else if (map->faces == 1) {
             fit_spot(v, light);
         } else {
-            set_axes(v, cube_axis(f));
+            set_view_axes(v, cube_axis(f));
             meets = !light_kind_is(light->kind, LIGHT_CONED) || meets_face(light, f);
         }
         map->drawn |= (uint32_t)meets << f;
@@ -343,8 +343,8 @@ lmb_status lmb_shadow_map_draw(const lmb_shadow_map *map, const lmb_kernels *ker
 }
 
 /* Draws the tile rows from .. to - 1 of one face. */
-static lmb_status draw_rows(const lmb_shadow_map *map, int32_t face, const lmb_kernels *kernels, const lmb_scene *scene,
-                            int32_t from, int32_t to, lmb_stats *stats)
+static lmb_status draw_map_rows(const lmb_shadow_map *map, int32_t face, const lmb_kernels *kernels,
+                                const lmb_scene *scene, int32_t from, int32_t to, lmb_stats *stats)
 {
     lmb_target window;
     lmb_target_rows(&window, &map->face[face], from, to - from);
@@ -368,7 +368,7 @@ lmb_status lmb_shadow_map_rows(const lmb_shadow_map *map, const lmb_kernels *ker
     for (int32_t f = 0; f < map->faces && status == LMB_OK; ++f) {
         const int32_t from = maxi(first - f * rows, 0), to = mini(past - f * rows, rows);
         if (from < to) {
-            status = draw_rows(map, f, kernels, scene, from, to, stats);
+            status = draw_map_rows(map, f, kernels, scene, from, to, stats);
         }
     }
     return status;

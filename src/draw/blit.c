@@ -6,9 +6,9 @@
 #include "../base/surface_check.h"
 
 #if LMB_DRAW
-enum { BLIT_SCALE = 64, GLYPHS = 95, GLYPH_WIDE = 5, CELL_WIDE = 6, CELL_HIGH = 8 };
+enum { BLIT_SCALE = 64, GLYPH_COUNT = 95, GLYPH_WIDE = 5, CELL_WIDE = 6, CELL_HIGH = 8 };
 
-static const uint8_t glyphs[GLYPHS + 1][GLYPH_WIDE] = {
+static const uint8_t glyphs[GLYPH_COUNT + 1][GLYPH_WIDE] = {
 #include "font.inc"
 };
 
@@ -202,7 +202,7 @@ lmb_status lmb_blit(const lmb_surface *to, int32_t x, int32_t y, const lmb_blit_
 static const uint8_t *text_glyph(char c)
 {
     const uint32_t code = (uint8_t)c;
-    return glyphs[code >= 32 && code < 32 + GLYPHS ? code - 32 : GLYPHS];
+    return glyphs[code >= 32 && code < 32 + GLYPH_COUNT ? code - 32 : GLYPH_COUNT];
 }
 
 /* The ink of a text. With four bytes a pixel, `codes` are in the order of the surface's. */

@@ -61,8 +61,8 @@ static void light_add(float matt[3], float highlight[3], const lmb_draw_lamp *la
 
 static uint8_t light_code(float v) { return (uint8_t)(minf(maxf(v, 0.0f), 1.0f) * 255.0f + 0.5f); }
 
-static void light_side(uint8_t *colour, uint8_t *second, const lmb_draw_lighting *how, const lmb_draw_material *m,
-                       const light_place *p)
+static void light_corner_side(uint8_t *colour, uint8_t *second, const lmb_draw_lighting *how,
+                              const lmb_draw_material *m, const light_place *p)
 {
     float matt[3], highlight[3] = {0.0f, 0.0f, 0.0f};
     for (int c = 0; c < 3; ++c) {
@@ -192,7 +192,7 @@ lmb_status lmb_draw_light(const lmb_draw_lit *out, const lmb_draw_lighting *how,
             uint8_t *seconds = back ? out->back_seconds : out->seconds;
             lmb_draw_material material = how->material[back];
             light_track(&material, how->tracks, own);
-            light_side(colours + at, seconds != NULL ? seconds + at : NULL, how, &material, &p);
+            light_corner_side(colours + at, seconds != NULL ? seconds + at : NULL, how, &material, &p);
             p.normal = mul3(p.normal, -1.0f);
         }
     }

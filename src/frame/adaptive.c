@@ -14,18 +14,18 @@
 #if LMB_TREES
 
 enum {
-    SURFACES = 0, /* bands: stores the surfaces of the pixels */
-    LEVELS = 1,   /* windows: samples of the first level, the second, ... */
-    FILL = LEVELS + LATTICE_LEVELS,
-    REST, /* pixels that no sample explains */
-    PHASES
+    PHASE_SURFACES = 0, /* bands: stores the surfaces of the pixels */
+    PHASE_LEVELS = 1,   /* windows: samples of the first level, the second, ... */
+    PHASE_FILL = PHASE_LEVELS + LATTICE_LEVELS,
+    PHASE_REST, /* pixels that no sample explains */
+    ADAPTIVE_PHASES
 };
 enum { WINDOW_UNITS = 64 };
 
-#define SPLIT 28.0f /* times the squared error limit: lmb_lattice.split */
+#define SPLIT_PER_ERROR2 28.0f  /* times the squared error limit: lmb_lattice.split */
 #define LIVE_SPLIT 290.0f /* over strata^2: sampling errors of shadows should not cause divisions */
 
-static lmb_status take_surfaces(const lmb_render *r, lmb_band_scratch *s, int32_t band)
+static lmb_status take_band_surfaces(const lmb_render *r, lmb_band_scratch *s, int32_t band)
 {
     const lmb_frame *f = &r->frame;
     lmb_target eye;
@@ -63,7 +63,7 @@ static int on_plane(const lmb_lattice_tile *a, int i, const lmb_lattice_tile *b,
 }
 
 /* The depth bounds the rounding error of the position. */
-static void put_pixel(lmb_tile *out, int to, const lmb_lattice_tile *in, int from, const lmb_frame *f)
+static void put_window_pixel(lmb_tile *out, int to, const lmb_lattice_tile *in, int from, const lmb_frame *f)
 {
     for (int c = 0; c < 3; ++c) {
         out->position[c][to] = in->position[c][from];
@@ -94,7 +94,7 @@ static void put_alike(pack *p, lmb_lattice_tile *tile, int32_t i)
             p->seed_pixel = k;
         }
         if (on_plane(p->seed, p->seed_pixel, tile, k)) {
-            put_pixel(&p->s->together, p->count, tile, k, &p->r->frame);
+            put_window_pixel(&p->s->together, p->count, tile, k, &p->r->frame);
             p->s->pixel[p->count] = (uint16_t)k;
             p->tile[p->count++] = (uint16_t)i;
             tile->wanted &= ~((uint64_t)1 << k);
@@ -155,24 +155,24 @@ static int32_t pieces_of(const lmb_render *r)
     if (lights_points(r)) {
         return lmb_render_live_pieces(r);
     }
-    return r->light == SURFACES ? band_count(&r->frame.view) : lmb_lattice_windows(&r->frame.lattice);
+    return r->light == PHASE_SURFACES ? band_count(&r->frame.view) : lmb_lattice_windows(&r->frame.lattice);
 }
 
 static lmb_status do_piece(const lmb_render *r, lmb_band_scratch *s, int32_t i)
 {
     const lmb_lattice *l = &r->frame.lattice;
-    if (r->light == SURFACES) {
-        return take_surfaces(r, s, i);
+    if (r->light == PHASE_SURFACES) {
+        return take_band_surfaces(r, s, i);
     }
-    if (r->light == FILL) {
+    if (r->light == PHASE_FILL) {
         lmb_lattice_fill(l, i);
         return LMB_OK;
     }
-    if (r->light == REST) {
+    if (r->light == PHASE_REST) {
         lmb_lattice_rest(l, i);
     }
     lmb_status status = gather_window(r, s, i);
-    if (r->light == REST && status == LMB_OK) {
+    if (r->light == PHASE_REST && status == LMB_OK) {
         lmb_lattice_closer(l, i);
         status = gather_window(r, s, i);
         lmb_lattice_late(l, i);
@@ -183,7 +183,7 @@ static lmb_status do_piece(const lmb_render *r, lmb_band_scratch *s, int32_t i)
 static float split_of(const lmb_frame *f)
 {
     const float strata = requires_live(f) ? (float)f->live->strata : 0.0f;
-    return requires_live(f) ? LIVE_SPLIT / (strata * strata) : SPLIT * f->error * f->error;
+    return requires_live(f) ? LIVE_SPLIT / (strata * strata) : SPLIT_PER_ERROR2 * f->error * f->error;
 }
 
 /* Advances to the next phase. */
@@ -193,7 +193,7 @@ lmb_status lmb_render_samples_on(lmb_render *r)
     if (lights_points(r)) {
         return lmb_render_live_on(r);
     }
-    const int32_t level = (int32_t)r->light - LEVELS;
+    const int32_t level = (int32_t)r->light - PHASE_LEVELS;
     if (level == 0) {
         r->frame.lattice.mean = lmb_lattice_mean(&r->frame.lattice);
         r->frame.lattice.split = split_of(&r->frame);
@@ -201,13 +201,13 @@ lmb_status lmb_render_samples_on(lmb_render *r)
     if (level >= 0 && level < LATTICE_LEVELS - 1) {
         lmb_lattice_divide(&r->frame.lattice, level);
     }
-    return ++r->light < PHASES ? LMB_MORE : LMB_OK;
+    return ++r->light < ADAPTIVE_PHASES ? LMB_MORE : LMB_OK;
 }
 
 lmb_status lmb_render_samples(lmb_render *r, int32_t units)
 {
     lmb_band_scratch *s = r->frame.scratch;
-    const int32_t each = r->light == SURFACES ? LMB_TILE : WINDOW_UNITS;
+    const int32_t each = r->light == PHASE_SURFACES ? LMB_TILE : WINDOW_UNITS;
     for (int32_t n = 0; (n == 0 || n + each <= units) && (int32_t)r->progress < pieces_of(r); n += each) {
         memset(&s->counts, 0, sizeof s->counts);
         const int32_t i = (int32_t)r->progress++;

@@ -4,14 +4,14 @@
 #include "stages.h"
 #include "requires.h"
 
-#define STEPS 12
-#define ERROR   0.02f  /* the `default` of the tool's presets */
-#define VISIBILITY 0.015f
+#define DEFAULT_SEGMENT_STEPS 12
+#define DEFAULT_ERROR         0.02f /* the `default` of the tool's presets */
+#define DEFAULT_VISIBILITY    0.015f
 #define EVEN_ERROR   0.1f /* for light from all sides */
 #define EVEN_VISIBLE 0.2f
 
 /* Divides the map memory: one shadow map after another. */
-static lmb_status place_maps(lmb_render *r)
+static lmb_status place_frame_maps(lmb_render *r)
 {
     const lmb_frame *f = &r->frame;
     uint8_t *place = (uint8_t *)f->map_memory;
@@ -34,10 +34,10 @@ void lmb_render_defaults(lmb_frame *f)
 {
     const int even = (f->error == 0.0f || f->visibility == 0.0f) && wants_even_light(f);
     f->bounces = f->bounces != 0 ? f->bounces : 1;
-    f->steps = f->steps != 0 ? f->steps : STEPS;
+    f->steps = f->steps != 0 ? f->steps : DEFAULT_SEGMENT_STEPS;
     f->samples += f->samples == 0;
-    f->error = f->error != 0.0f ? f->error : even ? EVEN_ERROR : ERROR;
-    f->visibility = f->visibility != 0.0f ? f->visibility : even ? EVEN_VISIBLE : VISIBILITY;
+    f->error = f->error != 0.0f ? f->error : even ? EVEN_ERROR : DEFAULT_ERROR;
+    f->visibility = f->visibility != 0.0f ? f->visibility : even ? EVEN_VISIBLE : DEFAULT_VISIBILITY;
     f->gather_step = f->gather_step != 0 && requires_bounce(f) ? f->gather_step : 1;
     if (takes_lattice(f->gather_step) && requires_transfer(f)) {
         f->gather_step = 1; /* baked light costs less per pixel than a sample */
@@ -69,7 +69,7 @@ lmb_status lmb_render_begin(lmb_render *r, const lmb_frame *frame)
     f->points.owner_count = 0;
     lmb_status status = lmb_render_check(f);
     if (status == LMB_OK) {
-        status = place_maps(r);
+        status = place_frame_maps(r);
     }
     r->triangles = status == LMB_OK ? lmb_scene_triangles(f->scene) : 0;
     r->emits = status == LMB_OK && lmb_scene_emits(f->scene);

@@ -2,12 +2,12 @@
 #include "../base/exact.h"
 #include "solver.h"
 
-#define LINE 64u /* bytes: parts start at multiples of this */
+#define PART_ALIGN_BYTES 64u /* bytes: parts start at multiples of this */
 
 void *lmb_frame_take(frame_block *b, uint64_t bytes)
 {
     void *part = b->memory != NULL ? b->memory + (size_t)b->used : NULL;
-    b->used += (bytes + LINE - 1) / LINE * LINE;
+    b->used += (bytes + PART_ALIGN_BYTES - 1) / PART_ALIGN_BYTES * PART_ALIGN_BYTES;
     return part;
 }
 

@@ -122,7 +122,7 @@ const frame_solver *lmb_solver_for(const lmb_frame *f, const lmb_frame_settings 
 
 /* --- parts -------------------------------------------------------------------------------------------------------- */
 
-static lmb_status place_maps(lmb_frame *f, frame_block *b)
+static lmb_status place_map_memory(lmb_frame *f, frame_block *b)
 {
     const lmb_scene *s = f->scene;
     uint64_t bytes = 0;
@@ -214,7 +214,7 @@ static lmb_status place_multisample(lmb_frame *f, const lmb_frame_settings *s, f
     return status;
 }
 
-static lmb_status lay_out(lmb_frame *f, const lmb_frame_settings *s, frame_block *b)
+static lmb_status lay_out_frame(lmb_frame *f, const lmb_frame_settings *s, frame_block *b)
 {
     const uint64_t scratch = sizeof *f->scratch * (uint64_t)(s->threads > 1 ? s->threads : 1);
     set_numbers(f, s);
@@ -222,7 +222,7 @@ static lmb_status lay_out(lmb_frame *f, const lmb_frame_settings *s, frame_block
     if (!is_only_measured(b)) {
         memset(f->scratch, 0, (size_t)scratch);
     }
-    lmb_status status = place_maps(f, b);
+    lmb_status status = place_map_memory(f, b);
     if (status == LMB_OK) {
         status = place_surfaces(f, s, b);
     }
@@ -237,12 +237,12 @@ static lmb_status lay_out(lmb_frame *f, const lmb_frame_settings *s, frame_block
 
 /* --- calls -------------------------------------------------------------------------------------------------------- */
 
-static lmb_status measure(lmb_frame *f, uint64_t *bytes, const lmb_frame_settings *settings)
+static lmb_status measure_frame(lmb_frame *f, uint64_t *bytes, const lmb_frame_settings *settings)
 {
     frame_block b = {NULL, 0};
     lmb_status status = check(settings);
     if (status == LMB_OK) {
-        status = lay_out(f, settings, &b);
+        status = lay_out_frame(f, settings, &b);
     }
     *bytes = b.used;
     return status != LMB_OK ? status : b.used > SIZE_MAX ? LMB_ERR_CAPACITY : LMB_OK;
@@ -252,7 +252,7 @@ size_t lmb_frame_bytes(const lmb_frame_settings *settings)
 {
     lmb_frame f;
     uint64_t bytes = 0;
-    return settings != NULL && measure(&f, &bytes, settings) == LMB_OK ? (size_t)bytes : 0;
+    return settings != NULL && measure_frame(&f, &bytes, settings) == LMB_OK ? (size_t)bytes : 0;
 }
 
 lmb_status lmb_frame_init(lmb_frame *out, const lmb_frame_settings *settings, void *memory, size_t bytes)
@@ -262,7 +262,7 @@ lmb_status lmb_frame_init(lmb_frame *out, const lmb_frame_settings *settings, vo
     if (out == NULL || settings == NULL || memory == NULL) {
         return LMB_ERR_ARG;
     }
-    lmb_status status = measure(&f, &needed, settings);
+    lmb_status status = measure_frame(&f, &needed, settings);
     if (status != LMB_OK) {
         return status;
     }
@@ -273,7 +273,7 @@ lmb_status lmb_frame_init(lmb_frame *out, const lmb_frame_settings *settings, vo
         return LMB_ERR_CAPACITY;
     }
     frame_block b = {(uint8_t *)memory, 0};
-    status = lay_out(&f, settings, &b);
+    status = lay_out_frame(&f, settings, &b);
     if (status == LMB_OK) {
         *out = f;
     }

@@ -11,20 +11,23 @@
 
 #if LMB_TREES
 
-#define ALIKE  0.95f /* min cosine between the normals of pixels that share light */
-#define OVER   1e-3f /* max squared height over the other's plane / squared distance, at equal normals */
-#define ENOUGH 0.9f  /* min share of the bilinear weights of the corners that agree, ... */
-#define NEAR   1     /* ... unless one of them is within this many px */
-#define REACH  6     /* px each way within which a pixel that no corner explains needs a sample, */
-#define CLOSE  1     /* or this many, if the samples within */
-#define FAR    14    /* this many px differ */
-#define UNEVEN 0.3f  /* by more than this share of the mean light */
+#define MIN_NORMAL_COSINE  0.95f /* min cosine between the normals of pixels that share light */
+#define MAX_OFF_PLANE2     1e-3f /* max squared height over the other's plane / squared distance, at equal normals */
+#define MIN_AGREEING_SHARE 0.9f  /* min share of the bilinear weights of the corners that agree, ... */
+#define MAX_NEAR_PX        1     /* ... unless one of them is within this many px */
+#define MAX_REACH_PX       6     /* px each way within which a pixel that no corner explains needs a sample, */
+#define MIN_REACH_PX       1     /* or this many, if the samples within */
+#define MIN_DIFFERING_PX   14    /* this many px differ */
+#define MIN_UNEVEN_SHARE   0.3f  /* by more than this share of the mean light */
 
 /* --- layout ------------------------------------------------------------------------------------------------------- */
 
-static int32_t step_of(int32_t level) { return LATTICE_STEP >> level; }
+static int32_t step_of_level(int32_t level) { return LATTICE_STEP >> level; }
 
-static int32_t cells_along(int32_t pixels, int32_t level) { return (pixels + step_of(level) - 1) / step_of(level); }
+static int32_t cells_along(int32_t pixels, int32_t level)
+{
+    return (pixels + step_of_level(level) - 1) / step_of_level(level);
+}
 
 static size_t cells_before(int32_t width, int32_t height, int32_t level)
 {
@@ -35,10 +38,11 @@ static size_t cells_before(int32_t width, int32_t height, int32_t level)
     return out;
 }
 
-static uint8_t *cell_of(const lmb_lattice *l, int32_t level, int32_t x, int32_t y)
+static uint8_t *cell_mark(const lmb_lattice *l, int32_t level, int32_t x, int32_t y)
 {
     return l->divided + cells_before(l->width, l->height, level) +
-           (size_t)(y / step_of(level)) * (size_t)cells_along(l->width, level) + (size_t)(x / step_of(level));
+           (size_t)(y / step_of_level(level)) * (size_t)cells_along(l->width, level) +
+           (size_t)(x / step_of_level(level));
 }
 
 static size_t tiles_of(int32_t width, int32_t height)
@@ -98,7 +102,7 @@ typedef struct pixel {
     int32_t k;
 } pixel;
 
-static pixel pixel_at(const lmb_lattice *l, int32_t x, int32_t y)
+static pixel lattice_pixel(const lmb_lattice *l, int32_t x, int32_t y)
 {
     pixel p;
     p.tile = lattice_tile(l, x / LMB_TILE, y / LMB_TILE);
@@ -106,33 +110,33 @@ static pixel pixel_at(const lmb_lattice *l, int32_t x, int32_t y)
     return p;
 }
 
-static int is_known(pixel p) { return (int)(p.tile->known >> p.k & 1u); }
+static int is_pixel_known(pixel p) { return (int)(p.tile->known >> p.k & 1u); }
 
 /* Does column or row x, of `size`, hold samples of a lattice? Multiples of the step do, and the last one. */
-static int is_on(int32_t x, int32_t step, int32_t size) { return x % step == 0 || x == size - 1; }
+static int is_on_step(int32_t x, int32_t step, int32_t size) { return x % step == 0 || x == size - 1; }
 
 /* 0 .. 1: how well two pixels agree in their surface. On a smooth surface the height over the other pixel's plane grows
  * with the angle between the normals. */
-static float agreement(const lmb_lattice_tile *a, int i, const lmb_lattice_tile *b, int k)
+static float pixel_agreement(const lmb_lattice_tile *a, int i, const lmb_lattice_tile *b, int k)
 {
     const float bend = 1.0f - dot3(tile_vec(a->normal, i), tile_vec(b->normal, k));
-    if (!(bend <= 1.0f - ALIKE)) {
+    if (!(bend <= 1.0f - MIN_NORMAL_COSINE)) {
         return 0.0f;
     }
     const lmb_vec3 d = sub3(tile_vec(b->position, k), tile_vec(a->position, i));
     const float lift = maxf(absf(dot3(tile_vec(a->face, i), d)), absf(dot3(tile_vec(b->face, k), d)));
-    if (!(lift * lift <= (2.0f * bend + OVER) * dot3(d, d))) {
+    if (!(lift * lift <= (2.0f * bend + MAX_OFF_PLANE2) * dot3(d, d))) {
         return 0.0f;
     }
-    return bend > 1e-4f ? 1.0f - bend * (1.0f / (1.0f - ALIKE)) * 0.999f : 1.0f;
+    return bend > 1e-4f ? 1.0f - bend * (1.0f / (1.0f - MIN_NORMAL_COSINE)) * 0.999f : 1.0f;
 }
 
 int lmb_lattice_alike(const lmb_lattice_tile *a, int i, const lmb_lattice_tile *b, int k)
 {
-    return agreement(a, i, b, k) > 0.0f;
+    return pixel_agreement(a, i, b, k) > 0.0f;
 }
 
-static int is_flat(const lmb_tile *tile, uint64_t shown)
+static int is_tile_flat(const lmb_tile *tile, uint64_t shown)
 {
     const int first = shown != 0 ? lowest_bit_64(shown) : 0;
     const lmb_vec3 n = tile_vec(tile->face, first), at = tile_vec(tile->position, first);
@@ -157,12 +161,12 @@ void lmb_lattice_put(const lmb_lattice *l, const lmb_tile *tile, int lobes)
     memcpy(out->id, tile->id, sizeof out->id);
     out->shown = lobes ? 0 : tile_pixels(tile);
     out->known = out->wanted = 0;
-    out->flat = is_flat(tile, out->shown);
+    out->flat = is_tile_flat(tile, out->shown);
     memset(&out->light, 0, sizeof out->light);
     for (uint64_t bits = out->shown; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
-        if (is_on(tile->x + k % LMB_TILE, LATTICE_STEP, l->width) &&
-            is_on(tile->y + k / LMB_TILE, LATTICE_STEP, l->height)) {
+        if (is_on_step(tile->x + k % LMB_TILE, LATTICE_STEP, l->width) &&
+            is_on_step(tile->y + k / LMB_TILE, LATTICE_STEP, l->height)) {
             out->wanted |= (uint64_t)1 << k;
         }
     }
@@ -190,29 +194,29 @@ typedef struct patch_corner {
     float light[3], slope[2][3]; /* W/m2; and W/m2 per pixel, along columns and rows */
 } patch_corner;
 
-typedef struct cell {
+typedef struct lattice_cell {
     int32_t x[2], y[2];
     patch_corner corner[4];
     float width, height; /* as divisors: at least 1 */
-} cell;
+} lattice_cell;
 
 /* Position of the sample before or after a pixel in a row or column; -1 if there is none. */
-static int32_t before(int32_t x, int32_t step) { return x > 0 ? (x - 1) / step * step : -1; }
-static int32_t after(int32_t x, int32_t step, int32_t size)
+static int32_t step_before(int32_t x, int32_t step) { return x > 0 ? (x - 1) / step * step : -1; }
+static int32_t step_after(int32_t x, int32_t step, int32_t size)
 {
     return x < size - 1 ? mini((x / step + 1) * step, size - 1) : -1;
 }
 
 /* Finds the neighbour along columns or rows. Returns the distance in px; 0 if there is none. */
-static float neighbour(pixel *out, const lmb_lattice *l, const patch_corner *c, int32_t x, int32_t y, int way,
-                       int ahead, int32_t step)
+static float neighbour_pixel(pixel *out, const lmb_lattice *l, const patch_corner *c, int32_t x, int32_t y, int way,
+                             int ahead, int32_t step)
 {
     for (int32_t s = step; s <= 2 * step; s *= 2) {
         const int32_t from = way == 0 ? x : y, size = way == 0 ? l->width : l->height;
-        const int32_t to = ahead ? after(from, s, size) : before(from, s);
+        const int32_t to = ahead ? step_after(from, s, size) : step_before(from, s);
         if (to >= 0) {
-            *out = way == 0 ? pixel_at(l, to, y) : pixel_at(l, x, to);
-            if (is_known(*out) && agreement(c->at.tile, c->at.k, out->tile, out->k) > 0.0f) {
+            *out = way == 0 ? lattice_pixel(l, to, y) : lattice_pixel(l, x, to);
+            if (is_pixel_known(*out) && pixel_agreement(c->at.tile, c->at.k, out->tile, out->k) > 0.0f) {
                 return (float)(to > from ? to - from : from - to);
             }
         }
@@ -220,10 +224,11 @@ static float neighbour(pixel *out, const lmb_lattice *l, const patch_corner *c, 
     return 0.0f;
 }
 
-static void set_slope(patch_corner *c, const lmb_lattice *l, int32_t x, int32_t y, int way, int32_t step)
+static void set_corner_slope(patch_corner *c, const lmb_lattice *l, int32_t x, int32_t y, int way, int32_t step)
 {
     pixel less, more;
-    const float down = neighbour(&less, l, c, x, y, way, 0, step), up = neighbour(&more, l, c, x, y, way, 1, step);
+    const float down = neighbour_pixel(&less, l, c, x, y, way, 0, step),
+                up = neighbour_pixel(&more, l, c, x, y, way, 1, step);
     for (int i = 0; i < 3; ++i) {
         const float from = c->light[i];
         const float s0 = down > 0.0f ? (from - less.tile->light.rgb[i][less.k]) / down : 0.0f;
@@ -233,7 +238,7 @@ static void set_slope(patch_corner *c, const lmb_lattice *l, int32_t x, int32_t 
 }
 
 /* Sets the positions of the cell's corners, which may be gathered later. */
-static void place_cell(cell *out, const lmb_lattice *l, int32_t x, int32_t y, int32_t step)
+static void place_cell(lattice_cell *out, const lmb_lattice *l, int32_t x, int32_t y, int32_t step)
 {
     out->x[0] = x;
     out->y[0] = y;
@@ -242,38 +247,38 @@ static void place_cell(cell *out, const lmb_lattice *l, int32_t x, int32_t y, in
     out->width = maxf((float)(out->x[1] - x), 1.0f);
     out->height = maxf((float)(out->y[1] - y), 1.0f);
     for (int i = 0; i < 4; ++i) {
-        out->corner[i].at = pixel_at(l, out->x[i & 1], out->y[i >> 1]);
+        out->corner[i].at = lattice_pixel(l, out->x[i & 1], out->y[i >> 1]);
     }
 }
 
-static void set_cell(cell *out, const lmb_lattice *l, int32_t x, int32_t y, int32_t step)
+static void set_lattice_cell(lattice_cell *out, const lmb_lattice *l, int32_t x, int32_t y, int32_t step)
 {
     place_cell(out, l, x, y, step);
     for (int i = 0; i < 4; ++i) {
         patch_corner *c = &out->corner[i];
         memset(c->light, 0, sizeof c->light);
         memset(c->slope, 0, sizeof c->slope);
-        if (is_known(c->at)) {
+        if (is_pixel_known(c->at)) {
             for (int k = 0; k < 3; ++k) {
                 c->light[k] = c->at.tile->light.rgb[k][c->at.k];
             }
-            set_slope(c, l, out->x[i & 1], out->y[i >> 1], 0, step);
-            set_slope(c, l, out->x[i & 1], out->y[i >> 1], 1, step);
+            set_corner_slope(c, l, out->x[i & 1], out->y[i >> 1], 0, step);
+            set_corner_slope(c, l, out->x[i & 1], out->y[i >> 1], 1, step);
         }
     }
 }
 
-static void set_agreements(float out[4], const cell *c, const lmb_lattice_tile *tile, int k)
+static void set_agreements(float out[4], const lattice_cell *c, const lmb_lattice_tile *tile, int k)
 {
     for (int i = 0; i < 4; ++i) {
         const pixel at = c->corner[i].at;
-        out[i] = at.tile->shown >> at.k & 1u ? agreement(tile, k, at.tile, at.k) : 0.0f;
+        out[i] = at.tile->shown >> at.k & 1u ? pixel_agreement(tile, k, at.tile, at.k) : 0.0f;
     }
 }
 
 /* Light at (x, y) from the corners that agree: a bilinear mean, with each corner extrapolated by half of the slopes,
  * which is exact for quadratics. If a corner is missing, full slopes are used, which is exact for linear light. */
-static void mix(float out[3], const cell *c, const float agree[4], int32_t x, int32_t y)
+static void mix_corners(float out[3], const lattice_cell *c, const float agree[4], int32_t x, int32_t y)
 {
     const float u = (float)(x - c->x[0]) / c->width, v = (float)(y - c->y[0]) / c->height;
     const int all = agree[0] > 0.0f && agree[1] > 0.0f && agree[2] > 0.0f && agree[3] > 0.0f;
@@ -300,18 +305,18 @@ static void mix(float out[3], const cell *c, const float agree[4], int32_t x, in
 
 /* --- dividing ----------------------------------------------------------------------------------------------------- */
 
-static float surplus_at(const lmb_lattice *l, const cell *c, int32_t x, int32_t y)
+static float cell_surplus(const lmb_lattice *l, const lattice_cell *c, int32_t x, int32_t y)
 {
-    const pixel p = pixel_at(l, x, y);
+    const pixel p = lattice_pixel(l, x, y);
     float agree[4], by[3] = {0, 0, 0}, sum = 0.0f;
-    if (!is_known(p)) {
+    if (!is_pixel_known(p)) {
         return 0.0f;
     }
     set_agreements(agree, c, p.tile, p.k);
     if (!(agree[0] + agree[1] + agree[2] + agree[3] > 0.0f)) {
         return 0.0f; /* the first sample of a surface has no prediction */
     }
-    mix(by, c, agree, x, y);
+    mix_corners(by, c, agree, x, y);
     for (int k = 0; k < 3; ++k) {
         sum += absf(p.tile->light.rgb[k][p.k] - by[k]);
     }
@@ -320,7 +325,7 @@ static float surplus_at(const lmb_lattice *l, const cell *c, int32_t x, int32_t 
 
 static void ask(const lmb_lattice *l, int32_t x, int32_t y)
 {
-    const pixel p = pixel_at(l, x, y);
+    const pixel p = lattice_pixel(l, x, y);
     p.tile->wanted |= p.tile->shown & ~p.tile->known & (uint64_t)1 << p.k;
 }
 
@@ -335,16 +340,16 @@ static void ask_between(const lmb_lattice *l, int32_t x, int32_t y, int32_t step
 }
 
 /* Decides which of a cell's four parts to divide. */
-static void divide_parts(const lmb_lattice *l, int32_t level, int32_t x, int32_t y)
+static void divide_cell_parts(const lmb_lattice *l, int32_t level, int32_t x, int32_t y)
 {
-    const int32_t step = step_of(level);
+    const int32_t step = step_of_level(level);
     float surplus[9] = {0, 0, 0, 0, 0, 0, 0, 0, 0};
-    cell c;
-    set_cell(&c, l, x, y, 2 * step);
+    lattice_cell c;
+    set_lattice_cell(&c, l, x, y, 2 * step);
     for (int32_t i = 0; i < 9; ++i) {
         const int32_t at = mini(x + i % 3 * step, l->width - 1), down = mini(y + i / 3 * step, l->height - 1);
         if (i % 2 == 1 || i == 4) {
-            surplus[i] = surplus_at(l, &c, at, down);
+            surplus[i] = cell_surplus(l, &c, at, down);
         }
     }
     for (int32_t i = 0; i < 4; ++i) {
@@ -352,7 +357,7 @@ static void divide_parts(const lmb_lattice *l, int32_t level, int32_t x, int32_t
         if (left < l->width && top < l->height) {
             const float worst = maxf(maxf(surplus[at], surplus[at + 1]), maxf(surplus[at + 3], surplus[at + 4])) / 3.0f;
             const int over = worst * worst * (float)(step * step) > l->split * l->mean * l->mean;
-            *cell_of(l, level, left, top) = (uint8_t)over;
+            *cell_mark(l, level, left, top) = (uint8_t)over;
             if (over) {
                 ask_between(l, left, top, step);
             }
@@ -362,14 +367,14 @@ static void divide_parts(const lmb_lattice *l, int32_t level, int32_t x, int32_t
 
 void lmb_lattice_divide(const lmb_lattice *l, int32_t level)
 {
-    const int32_t step = 2 * step_of(level);
+    const int32_t step = 2 * step_of_level(level);
     if (level == 0) {
         memset(l->divided, 0, cells_before(l->width, l->height, LATTICE_LEVELS - 1));
     }
     for (int32_t y = 0; y < l->height; y += step) {
         for (int32_t x = 0; x < l->width; x += step) {
-            if (level == 0 || *cell_of(l, level - 1, x, y)) {
-                divide_parts(l, level, x, y);
+            if (level == 0 || *cell_mark(l, level - 1, x, y)) {
+                divide_cell_parts(l, level, x, y);
             }
         }
     }
@@ -385,7 +390,7 @@ static void set_light(lmb_lattice_tile *tile, int k, const float light[3])
 }
 
 /* Does a pixel lie on the plane of the previous one? */
-static int goes_on(const lmb_lattice_tile *tile, int was, int k)
+static int surface_goes_on(const lmb_lattice_tile *tile, int was, int k)
 {
     const lmb_vec3 n = tile_vec(tile->face, was);
     const lmb_vec3 turn = sub3(tile_vec(tile->face, k), n), bend = sub3(tile_vec(tile->normal, k), n);
@@ -397,7 +402,7 @@ static int goes_on(const lmb_lattice_tile *tile, int was, int k)
 }
 
 /* Do the corners that agree explain a pixel? Not if it lies far beyond the last of them. */
-static int is_explained(const cell *c, const float agree[4], int32_t x, int32_t y)
+static int is_explained(const lattice_cell *c, const float agree[4], int32_t x, int32_t y)
 {
     const float u = (float)(x - c->x[0]) / c->width, v = (float)(y - c->y[0]) / c->height;
     float sum = 0.0f;
@@ -406,20 +411,20 @@ static int is_explained(const cell *c, const float agree[4], int32_t x, int32_t 
         if (agree[i] > 0.0f) {
             const int32_t dx = x - c->x[i & 1], dy = y - c->y[i >> 1];
             sum += (i & 1 ? u : 1.0f - u) * (i >> 1 ? v : 1.0f - v);
-            near |= dx * dx + dy * dy <= NEAR * NEAR;
+            near |= dx * dx + dy * dy <= MAX_NEAR_PX * MAX_NEAR_PX;
         }
     }
-    return sum >= ENOUGH || near;
+    return sum >= MIN_AGREEING_SHARE || near;
 }
 
 /* Do all four corners have full weight? */
-static int is_whole(const float agree[4])
+static int is_cell_whole(const float agree[4])
 {
     return agree[0] == 1.0f && agree[1] == 1.0f && agree[2] == 1.0f && agree[3] == 1.0f;
 }
 
 /* Writes only the pixels of `own`: another window may be reading the samples. */
-static void put_row(float *to, const float light[LMB_TILE], uint64_t own)
+static void put_light_row(float *to, const float light[LMB_TILE], uint64_t own)
 {
     if (own == 0xff) {
         memcpy(to, light, LMB_TILE * sizeof *to);
@@ -434,7 +439,7 @@ static void put_row(float *to, const float light[LMB_TILE], uint64_t own)
 
 /* Same result as `mix` if all corners have full weight, for pixels of a tile: row by row, from the left side of the
  * cell to the right. Equal corners give exactly their light. */
-static void mix_whole(lmb_lattice_tile *tile, const cell *c, int32_t x, int32_t y, uint64_t pixels)
+static void mix_whole(lmb_lattice_tile *tile, const lattice_cell *c, int32_t x, int32_t y, uint64_t pixels)
 {
     const patch_corner *at = c->corner;
     const float half_width = 0.5f * (float)(c->x[1] - c->x[0]);
@@ -457,19 +462,19 @@ static void mix_whole(lmb_lattice_tile *tile, const cell *c, int32_t x, int32_t 
                 const float from = left + s0 * dx;
                 light[i] = clampf(from + u * (right + s1 * (dx - half_width) - from), lower, upper);
             }
-            put_row(tile->light.rgb[k] + LMB_TILE * row, light, own);
+            put_light_row(tile->light.rgb[k] + LMB_TILE * row, light, own);
         }
     }
 }
 
 /* Lights some pixels of a tile that lie in the cell; pixels that no corner explains are added to `wanted`. */
-static void fill_pixels(lmb_lattice_tile *tile, const cell *c, int32_t x, int32_t y, uint64_t pixels)
+static void fill_pixels(lmb_lattice_tile *tile, const lattice_cell *c, int32_t x, int32_t y, uint64_t pixels)
 {
     float agree[4] = {0, 0, 0, 0};
     int was = -1;
     if (tile->flat && pixels != 0) {
         set_agreements(agree, c, tile, lowest_bit_64(pixels));
-        if (is_whole(agree)) {
+        if (is_cell_whole(agree)) {
             mix_whole(tile, c, x, y, pixels);
             return;
         }
@@ -477,12 +482,12 @@ static void fill_pixels(lmb_lattice_tile *tile, const cell *c, int32_t x, int32_
     for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
         float light[3];
-        if (was < 0 || !(tile->flat || goes_on(tile, was, k))) {
+        if (was < 0 || !(tile->flat || surface_goes_on(tile, was, k))) {
             set_agreements(agree, c, tile, k);
         }
         was = k;
         if (is_explained(c, agree, x + k % LMB_TILE, y + k / LMB_TILE)) {
-            mix(light, c, agree, x + k % LMB_TILE, y + k / LMB_TILE);
+            mix_corners(light, c, agree, x + k % LMB_TILE, y + k / LMB_TILE);
             set_light(tile, k, light);
         } else {
             tile->wanted |= (uint64_t)1 << k;
@@ -491,7 +496,7 @@ static void fill_pixels(lmb_lattice_tile *tile, const cell *c, int32_t x, int32_
 }
 
 /* Mask of a tile's pixels in columns x[0] .. x[1] - 1 and rows y[0] .. y[1] - 1. */
-static uint64_t within(const int32_t x[2], const int32_t y[2])
+static uint64_t pixels_within(const int32_t x[2], const int32_t y[2])
 {
     const uint64_t row = (((uint64_t)1 << (x[1] - x[0])) - 1) << x[0];
     uint64_t out = 0;
@@ -501,18 +506,18 @@ static uint64_t within(const int32_t x[2], const int32_t y[2])
     return out;
 }
 
-static void fill_cell(const lmb_lattice *l, int32_t left, int32_t top, int32_t step)
+static void fill_lattice_cell(const lmb_lattice *l, int32_t left, int32_t top, int32_t step)
 {
-    cell c;
+    lattice_cell c;
     int made = 0;
     for (int32_t y = top - top % LMB_TILE; y < mini(top + step, l->height); y += LMB_TILE) {
         for (int32_t x = left - left % LMB_TILE; x < mini(left + step, l->width); x += LMB_TILE) {
             lmb_lattice_tile *tile = lattice_tile(l, x / LMB_TILE, y / LMB_TILE);
             const int32_t columns[2] = {maxi(left - x, 0), mini(left + step - x, LMB_TILE)};
             const int32_t rows[2] = {maxi(top - y, 0), mini(top + step - y, LMB_TILE)};
-            const uint64_t pixels = within(columns, rows) & tile->shown & ~tile->known;
+            const uint64_t pixels = pixels_within(columns, rows) & tile->shown & ~tile->known;
             if (pixels != 0 && !made) {
-                set_cell(&c, l, left, top, step);
+                set_lattice_cell(&c, l, left, top, step);
                 made = 1;
             }
             if (pixels != 0) {
@@ -536,11 +541,11 @@ static void fill_divided(const lmb_lattice *l, int32_t x, int32_t y)
             ++i;
             continue;
         }
-        while (level < LATTICE_LEVELS - 1 && *cell_of(l, level, left, top)) {
+        while (level < LATTICE_LEVELS - 1 && *cell_mark(l, level, left, top)) {
             ++level;
         }
-        fill_cell(l, left, top, step_of(level));
-        i += step_of(level) * step_of(level);
+        fill_lattice_cell(l, left, top, step_of_level(level));
+        i += step_of_level(level) * step_of_level(level);
     }
 }
 
@@ -575,12 +580,12 @@ static window window_of(const lmb_lattice *l, int32_t i)
 }
 
 /* Samples near a pixel and on the same surface. */
-typedef struct around {
+typedef struct lattice_around {
     float sum, light[3]; /* sums of weights and of weighted light */
     float low, high;     /* R + G + B */
-} around;
+} lattice_around;
 
-static void add_around(around *out, const lmb_lattice_tile *tile, int k, float weight)
+static void add_lattice_around(lattice_around *out, const lmb_lattice_tile *tile, int k, float weight)
 {
     float all = 0.0f;
     for (int c = 0; c < 3; ++c) {
@@ -604,26 +609,27 @@ static uint64_t samples_of(const lmb_lattice *l, const window *w, int32_t tx, in
 }
 
 /* Collects all samples within `reach` px of pixel (x, y) each way; with `wanted` also those to be gathered. */
-static around around_of(const lmb_lattice *l, const window *w, int32_t x, int32_t y, int32_t reach, int wanted)
+static lattice_around around_of_pixel(const lmb_lattice *l, const window *w, int32_t x, int32_t y, int32_t reach,
+                                      int wanted)
 {
-    const pixel own = pixel_at(l, x, y);
+    const pixel own = lattice_pixel(l, x, y);
     const int32_t left = maxi(x - reach, 0), right = mini(x + reach, l->width - 1), top = maxi(y - reach, 0),
                   bottom = mini(y + reach, l->height - 1);
-    around out;
+    lattice_around out;
     memset(&out, 0, sizeof out);
     for (int32_t ty = top / LMB_TILE; ty <= bottom / LMB_TILE; ++ty) {
         for (int32_t tx = left / LMB_TILE; tx <= right / LMB_TILE; ++tx) {
             const lmb_lattice_tile *tile = lattice_tile(l, tx, ty);
             const int32_t columns[2] = {maxi(left - tx * LMB_TILE, 0), mini(right + 1 - tx * LMB_TILE, LMB_TILE)};
             const int32_t rows[2] = {maxi(top - ty * LMB_TILE, 0), mini(bottom + 1 - ty * LMB_TILE, LMB_TILE)};
-            uint64_t bits = samples_of(l, w, tx, ty, wanted) & within(columns, rows);
+            uint64_t bits = samples_of(l, w, tx, ty, wanted) & pixels_within(columns, rows);
             for (; bits != 0; bits &= bits - 1) {
                 const int k = lowest_bit_64(bits);
                 const float dx = (float)(tx * LMB_TILE + k % LMB_TILE - x),
                             dy = (float)(ty * LMB_TILE + k / LMB_TILE - y), d2 = 0.5f + dx * dx + dy * dy,
-                            weight = agreement(own.tile, own.k, tile, k) / (d2 * d2);
+                            weight = pixel_agreement(own.tile, own.k, tile, k) / (d2 * d2);
                 if (weight > 0.0f) {
-                    add_around(&out, tile, k, weight);
+                    add_lattice_around(&out, tile, k, weight);
                 }
                 if (weight > 0.0f && wanted) {
                     return out; /* one is enough */
@@ -637,8 +643,8 @@ static around around_of(const lmb_lattice *l, const window *w, int32_t x, int32_
 /* Does the light vary strongly around a pixel? */
 static int is_uneven(const lmb_lattice *l, const window *w, int32_t x, int32_t y)
 {
-    const around a = around_of(l, w, x, y, FAR, 0);
-    return a.high - a.low > UNEVEN * l->mean;
+    const lattice_around a = around_of_pixel(l, w, x, y, MIN_DIFFERING_PX, 0);
+    return a.high - a.low > MIN_UNEVEN_SHARE * l->mean;
 }
 
 /* Requests the late pixels without a sample within `reach`; with `uneven` only if the light varies there. */
@@ -650,7 +656,7 @@ static void ask_around(const lmb_lattice *l, const window *w, int32_t reach, int
             for (uint64_t bits = tile->late; bits != 0; bits &= bits - 1) {
                 const int k = lowest_bit_64(bits);
                 const int32_t x = tx * LMB_TILE + k % LMB_TILE, y = ty * LMB_TILE + k / LMB_TILE;
-                if (!(around_of(l, w, x, y, reach, 1).sum > 0.0f) && (!uneven || is_uneven(l, w, x, y))) {
+                if (!(around_of_pixel(l, w, x, y, reach, 1).sum > 0.0f) && (!uneven || is_uneven(l, w, x, y))) {
                     tile->wanted |= (uint64_t)1 << k;
                 }
             }
@@ -669,13 +675,13 @@ void lmb_lattice_rest(const lmb_lattice *l, int32_t i)
             tile->wanted = 0;
         }
     }
-    ask_around(l, &w, REACH, 0);
+    ask_around(l, &w, MAX_REACH_PX, 0);
 }
 
 void lmb_lattice_closer(const lmb_lattice *l, int32_t i)
 {
     const window w = window_of(l, i);
-    ask_around(l, &w, CLOSE, 1);
+    ask_around(l, &w, MIN_REACH_PX, 1);
 }
 
 void lmb_lattice_late(const lmb_lattice *l, int32_t i)
@@ -686,7 +692,8 @@ void lmb_lattice_late(const lmb_lattice *l, int32_t i)
             lmb_lattice_tile *tile = lattice_tile(l, tx, ty);
             for (uint64_t bits = tile->late; bits != 0; bits &= bits - 1) {
                 const int k = lowest_bit_64(bits);
-                const around a = around_of(l, &w, tx * LMB_TILE + k % LMB_TILE, ty * LMB_TILE + k / LMB_TILE, REACH, 0);
+                const lattice_around a =
+                    around_of_pixel(l, &w, tx * LMB_TILE + k % LMB_TILE, ty * LMB_TILE + k / LMB_TILE, MAX_REACH_PX, 0);
                 const float share = a.sum > 0.0f ? 1.0f / a.sum : 0.0f;
                 const float light[3] = {a.light[0] * share, a.light[1] * share, a.light[2] * share};
                 set_light(tile, k, light);

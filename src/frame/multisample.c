@@ -51,7 +51,7 @@ lmb_status lmb_multisample_draw(const lmb_render *r, lmb_band_scratch *s, int32_
 /* --- bounced light of a sample, taken from the same surface nearby ------------------------------------------------ */
 
 /* Does pixel j of tile b continue the surface at pixel i of tile a? */
-static int is_same_surface(const lmb_tile *a, int i, const lmb_tile *b, int j)
+static int are_on_one_surface(const lmb_tile *a, int i, const lmb_tile *b, int j)
 {
     if (a->id[i] == b->id[j]) {
         return 1;
@@ -75,7 +75,8 @@ static int find_middle(const lmb_tile *middle, const lmb_tile *sample, int k)
     static const int8_t near[9][2] = {{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}};
     for (int i = 0; i < 9; ++i) {
         const int x = k % LMB_TILE + near[i][0], y = k / LMB_TILE + near[i][1];
-        if (x >= 0 && x < LMB_TILE && y >= 0 && y < LMB_TILE && is_same_surface(sample, k, middle, y * LMB_TILE + x)) {
+        if (x >= 0 && x < LMB_TILE && y >= 0 && y < LMB_TILE &&
+            are_on_one_surface(sample, k, middle, y * LMB_TILE + x)) {
             return y * LMB_TILE + x;
         }
     }
@@ -87,7 +88,7 @@ static int find_extra(const lmb_multisample *m, int k)
 {
     for (int i = 0; i < m->extras; ++i) {
         const int dx = m->extra_pixel[i] % LMB_TILE - k % LMB_TILE, dy = m->extra_pixel[i] / LMB_TILE - k / LMB_TILE;
-        if (dx * dx <= 1 && dy * dy <= 1 && is_same_surface(&m->tile, k, &m->extra, i)) {
+        if (dx * dx <= 1 && dy * dy <= 1 && are_on_one_surface(&m->tile, k, &m->extra, i)) {
             return i;
         }
     }
@@ -165,7 +166,7 @@ static void add_sample(lmb_radiance *sum, const lmb_radiance *one, float weight,
     }
 }
 
-static lmb_status light_sample(const lmb_render *r, lmb_band_scratch *s)
+static lmb_status light_frame_sample(const lmb_render *r, lmb_band_scratch *s)
 {
     lmb_multisample *m = s->multisample;
     const lmb_view *view = &m->view;
@@ -198,7 +199,7 @@ lmb_status lmb_multisample_light(const lmb_render *r, lmb_band_scratch *s, const
         set_sample(m, f, i, band);
         status = lmb_resolve_tile(&m->tile, f->kernels, &m->view, f->scene, &m->window, s->tile.x, s->tile.y);
         if (status == LMB_OK) {
-            status = light_sample(r, s);
+            status = light_frame_sample(r, s);
         }
         add_sample(&m->sum, &s->radiance, 1.0f / (float)f->samples, white);
     }

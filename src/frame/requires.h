@@ -204,8 +204,8 @@ static inline lmb_cut_params cut_params_of(const lmb_frame *f, lmb_stats *stats)
 /* A query for elements, which a pixel sees many of: their errors may be larger. */
 static inline lmb_many_lights_query elements_query(const lmb_frame *f, lmb_stats *stats)
 {
-    enum { TIMES = 2 }; /* a pixel's error; with 4 spots lose 1 % of light */
-    const float error = (f->many_lights_error > 0.0f ? f->many_lights_error : 0.02f) * (float)TIMES;
+    enum { PIXEL_ERROR_FACTOR = 2 }; /* a pixel's error; with 4 spots lose 1 % of light */
+    const float error = (f->many_lights_error > 0.0f ? f->many_lights_error : 0.02f) * (float)PIXEL_ERROR_FACTOR;
     const lmb_many_lights_query query = {f->many_lights, f->bvh.triangle != NULL ? &f->bvh : NULL, error, 1, 0,
                                          stats};
     return query;

@@ -15,7 +15,7 @@
 /* State taken over from the last frame before r is reset. */
 typedef struct old_frame {
     lmb_frame frame;
-    uint32_t reuses;
+    uint32_t kept;
     uint8_t light_state[LMB_MAX_LIGHTS];
     uint8_t faces[LMB_MAX_LIGHTS]; /* that bounced */
     uint8_t map_faces[LMB_MAX_LIGHTS];
@@ -118,11 +118,11 @@ static void find_reused(old_frame *old, const lmb_render *r, const lmb_frame *f)
     }
     old->frame = *was;
     if (reuse_lights(old, r, f) && same_appearance(r, f) && was->dim == f->dim && !skips(r, LMB_SKIP_BOUNCE)) {
-        old->reuses |= same_points(was, f) ? LMB_REUSE_POINTS : 0;
-        old->reuses |= same_tree(was, f) ? LMB_REUSE_BOUNCES : 0;
+        old->kept |= same_points(was, f) ? LMB_REUSE_POINTS : 0;
+        old->kept |= same_tree(was, f) ? LMB_REUSE_BOUNCES : 0;
     }
-    old->reuses |= same_bvh(was, f) ? LMB_REUSE_BVH : 0;
-    old->reuses |= r->stage >= LMB_STAGE_BANDS && same_view(was, f) ? LMB_REUSE_VIEW : 0;
+    old->kept |= same_bvh(was, f) ? LMB_REUSE_BVH : 0;
+    old->kept |= r->stage >= LMB_STAGE_BANDS && same_view(was, f) ? LMB_REUSE_VIEW : 0;
 }
 
 /* A shadow map and the tree faces for it stay in place if the counts of their faces, and of those of all earlier
@@ -149,7 +149,7 @@ lmb_status lmb_render_reuse(lmb_render *r, const lmb_frame *frame)
         return status;
     }
     lmb_frame *f = &r->frame;
-    r->reuses = old.reuses;
+    r->reuses = old.kept;
     keep_places(r, &old);
     if (reuses(r, LMB_REUSE_POINTS)) {
         f->points = old.frame.points;

@@ -16,11 +16,12 @@
 
 #if LMB_PLAN
 
-#define CLEAR 0.015625f /* margin of the test whether a box is outside, in half widths of a face: 1/16 px of the
-                         * smallest map, over 16 times the distance that rounding and snapping to 1/256 px move a
-                         * vertex */
+/* margin of the test whether a box is outside, in half widths of a face: 1/16 px of the smallest map, over 16 times
+ * the distance that rounding and snapping to 1/256 px move a vertex */
+#define MIN_BOX_MARGIN 0.015625f
 
-#define DISCS 1.25f /* max excess of a disc in place of a surface: 16 % at 2 to 3 radii; nearer, the shape is used */
+/* max excess of a disc in place of a surface: 16 % at 2 to 3 radii; nearer, the shape is used */
+#define MAX_DISC_EXCESS 1.25f
 
 static int any3(const float *c) { return c[0] > 0.0f || c[1] > 0.0f || c[2] > 0.0f; }
 
@@ -61,7 +62,7 @@ static int face_meets(const lmb_view *v, const lmb_scene *s)
         const float tangent = i < 2 ? v->half_width : v->half_height;
         const lmb_vec3 out = sub3(side[i], mul3(ahead, tangent)); /* point p is outside if out . p > 0 */
         const float reach = absf(out.x) * half.x + absf(out.y) * half.y + absf(out.z) * half.z;
-        if (is_outside(dot3(out, to), reach, CLEAR * scale * tangent)) {
+        if (is_outside(dot3(out, to), reach, MIN_BOX_MARGIN * scale * tangent)) {
             return 0;
         }
     }
@@ -79,7 +80,7 @@ static void skip_faces(lmb_shadow_map *map, const lmb_scene *s)
 
 /* Does the light's range end before the scene's box? The margin is a thousandth, because rounding may move pixels out
  * of the box. */
-static int ends_before(const lmb_light *l, const lmb_scene *s)
+static int light_ends_before(const lmb_light *l, const lmb_scene *s)
 {
     const lmb_vec3 low = sub3(s->bounds_min, l->position), high = sub3(l->position, s->bounds_max);
     const lmb_vec3 gap = vec3(maxf(maxf(low.x, high.x), 0.0f), maxf(maxf(low.y, high.y), 0.0f),
@@ -133,7 +134,7 @@ static float upper_bounced(const lmb_render *r, const lmb_light *l, float albedo
 static void skip_dim(lmb_render *r, float albedo)
 {
     for (uint32_t i = 0; i < r->frame.scene->light_count; ++i) {
-        const float upper = upper_bounced(r, &r->frame.scene->lights[i], albedo) * DISCS;
+        const float upper = upper_bounced(r, &r->frame.scene->lights[i], albedo) * MAX_DISC_EXCESS;
         if (r->light_state[i] == 0 && r->dimmed + upper <= r->frame.dim) {
             r->light_state[i] |= LMB_LIGHT_DIM;
             r->dimmed += upper;
@@ -166,7 +167,7 @@ void lmb_render_skip(lmb_render *r)
     r->emits = r->emits && l.emits;
     r->is_glossy = r->is_glossy && l.is_glossy;
     for (uint32_t i = 0; i < s->light_count; ++i) {
-        if (!any3(s->lights[i].intensity) || ends_before(&s->lights[i], s)) {
+        if (!any3(s->lights[i].intensity) || light_ends_before(&s->lights[i], s)) {
             r->light_state[i] |= LMB_LIGHT_DARK;
             r->maps[i].drawn = 0;
         } else {

@@ -11,17 +11,19 @@
 #if LMB_TREES
 
 #ifdef LMB_CONFIG_TINY
-#define ELEMENTS      256u
-#define MANY_ELEMENTS 1024u
+#define DEFAULT_ELEMENTS        256u
+#define DEFAULT_BOUNCE_ELEMENTS 1024u
 #else
-#define ELEMENTS      16384u /* for emissive surfaces and many lights */
-#define MANY_ELEMENTS 65536u /* for repeated bounces: with fewer, rooms lose a tenth of the later light */
+#define DEFAULT_ELEMENTS        16384u /* for emissive surfaces and many lights */
+#define DEFAULT_BOUNCE_ELEMENTS 65536u /* for repeated bounces: with fewer, rooms lose a tenth of the later light */
 #endif
 
 lmb_status lmb_solve_elements_place(lmb_frame *f, const lmb_frame_settings *s, frame_block *b)
 {
     const int live = LMB_LIVE && f->gather_step == LMB_GATHER_LIVE;
-    const uint32_t n = s->elements != 0 ? s->elements : s->bounces > 1 && !live ? MANY_ELEMENTS : ELEMENTS;
+    const uint32_t n = s->elements != 0          ? s->elements
+                       : s->bounces > 1 && !live ? DEFAULT_BOUNCE_ELEMENTS
+                                                 : DEFAULT_ELEMENTS;
     const size_t bytes = lmb_elements_bytes(n);
     void *memory = lmb_frame_take(b, bytes);
     f->elements.cap = n;
@@ -29,8 +31,8 @@ lmb_status lmb_solve_elements_place(lmb_frame *f, const lmb_frame_settings *s, f
 }
 
 /* Elements first .. past - 1 receive light in pass r->light. */
-static lmb_status receive(const lmb_render *r, const frame_solver *own, lmb_band_scratch *s, int32_t first,
-                          int32_t past, lmb_stats *stats)
+static lmb_status receive_bounce(const lmb_render *r, const frame_solver *own, lmb_band_scratch *s, int32_t first,
+                                 int32_t past, lmb_stats *stats)
 {
     const lmb_frame *f = &r->frame;
     const int is_direct = r->light < (uint32_t)sends_direct(r);
@@ -66,7 +68,7 @@ lmb_status lmb_solve_elements_step(lmb_render *r, const frame_solver *own, int32
     }
     const int32_t tiles = lmb_elements_tiles(&r->frame.elements), first = (int32_t)r->progress,
                   past = tiles - first < units ? tiles : first + units;
-    const lmb_status status = receive(r, own, r->frame.scratch, first, past, r->frame.stats);
+    const lmb_status status = receive_bounce(r, own, r->frame.scratch, first, past, r->frame.stats);
     r->progress = (uint32_t)past;
     return status != LMB_OK ? status : past < tiles ? LMB_MORE : lmb_solve_elements_end(r, own);
 }
@@ -82,7 +84,7 @@ lmb_status lmb_solve_elements_part(const lmb_render *r, const frame_solver *own,
 {
     int64_t first, past;
     share_out(&first, &past, lmb_elements_tiles(&r->frame.elements), part, parts);
-    return receive(r, own, scratch, (int32_t)first, (int32_t)past, stats);
+    return receive_bounce(r, own, scratch, (int32_t)first, (int32_t)past, stats);
 }
 
 #endif

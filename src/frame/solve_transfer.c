@@ -8,7 +8,7 @@
 
 /* Texels along each side of a map face that are collected into a transfer's elements: this many for one face, half for
  * six. With 128, small elements get no texel or one: rmse of the Cornell box .113; with 256, .08; with 512, .075. */
-enum { COLLECTED = 256 };
+enum { MIN_COLLECTED_SIDE = 256 };
 #define UNIT_RECEIVERS 64u
 
 static lmb_status transfer_place(lmb_frame *f, const lmb_frame_settings *s, frame_block *b)
@@ -38,7 +38,8 @@ static lmb_status transfer_begin(lmb_render *r)
 static int32_t collected_each(const lmb_shadow_map *map)
 {
     int32_t each = 1;
-    while (map->size / each > (map->faces > 1 ? COLLECTED / 2 : COLLECTED) && map->size % (2 * each) == 0) {
+    while (map->size / each > (map->faces > 1 ? MIN_COLLECTED_SIDE / 2 : MIN_COLLECTED_SIDE) &&
+           map->size % (2 * each) == 0) {
         each *= 2;
     }
     return each;

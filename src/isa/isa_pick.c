@@ -64,6 +64,8 @@ const lmb_kernels *lmb_kernels_at(int32_t i)
     return NULL;
 }
 
+const char *lmb_kernels_built(int32_t i) { return i >= 0 && i < BACKENDS ? backends[i].kernels->name : NULL; }
+
 const lmb_kernels *lmb_kernels_pick(void) { return lmb_kernels_at(0); }
 
 static int same_text(const char *a, const char *b)

@@ -1,4 +1,4 @@
-/* live_block.c: what a block of a shadow map shows: one triangle, one plane, or more. Layer 5.                  [ours] */
+/* live_block.c: whether a block of a shadow map shows one triangle, one plane, or more. Layer 5.             [ours] */
 #include "live_part.h"
 
 #if LMB_LIVE

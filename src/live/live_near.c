@@ -243,7 +243,7 @@ static void find_parts(live_parts *out, live_look *l, const lmb_live_point *p, u
 }
 
 /* Appends chunk k of `near`. */
-static void append(lmb_live_scratch *s, int32_t k, uint32_t nodes)
+static void append_chunk(lmb_live_scratch *s, int32_t k, uint32_t nodes)
 {
     s->chunk[s->count] = &s->near[k];
     s->asked[s->count++] = (uint16_t)nodes;
@@ -304,7 +304,7 @@ static int put_parts(lmb_live_scratch *s, live_look *l, uint32_t point, uint32_t
     const int32_t to = slot_of_part(&found, s, key);
     if (found) {
         s->kept_for[to] = s->number;
-        append(s, to, s->kept_nodes[to]);
+        append_chunk(s, to, s->kept_nodes[to]);
         return 1;
     }
     find_parts(&p, l, &l->live->sorted[point], part);
@@ -325,7 +325,7 @@ static int put_parts(lmb_live_scratch *s, live_look *l, uint32_t point, uint32_t
         s->kept_for[to] = s->number;
         s->kept_nodes[to] = (uint16_t)p.shown;
     }
-    append(s, to, p.shown);
+    append_chunk(s, to, p.shown);
     return 1;
 }
 

@@ -57,7 +57,7 @@ static int packets_of(int32_t seen, int32_t targets)
     return seen * 5 >= targets * 2 ? 1 : seen * 5 >= targets || seen == 0 ? 2 : 3;
 }
 
-static lmb_status light_at(float light[3], const lmb_kernels *kernels, lmb_live_scratch *s, const lmb_live *live,
+static lmb_status light_receiver(float light[3], const lmb_kernels *kernels, lmb_live_scratch *s, const lmb_live *live,
                            const lmb_bvh *bvh, const lmb_live_receiver *receiver)
 {
     static const float place[3] = {0.5f, 0.16666667f, 0.83333333f}; /* within the strata; all have equal spacing */
@@ -122,7 +122,7 @@ lmb_status lmb_live_receive_again(float light[3], const lmb_kernels *kernels, lm
     }
     s->keeps = 1;
     ++s->number;
-    return light_at(light, kernels, s, live, bvh, receiver);
+    return light_receiver(light, kernels, s, live, bvh, receiver);
 }
 
 lmb_status lmb_live_receive(float light[3], const lmb_kernels *kernels, lmb_live_scratch *s, const lmb_live *live,
@@ -135,7 +135,7 @@ lmb_status lmb_live_receive(float light[3], const lmb_kernels *kernels, lmb_live
         s->facet[i].id = 0;
     }
     s->keeps = 0;
-    return light_at(light, kernels, s, live, bvh, receiver);
+    return light_receiver(light, kernels, s, live, bvh, receiver);
 }
 
 #endif

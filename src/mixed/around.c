@@ -12,12 +12,12 @@
 #define MAX_RATIO 4.0f /* max growth of the light at a point: cones are coarse if almost no light came before */
 
 #define FAR_SHARE 0.15f   /* of the distance from the object: points this close share one result */
-#define SAME_WAY 0.98f    /* min cosine between the normals of points that share one result */
+#define MIN_SHARED_COSINE 0.98f   /* min cosine between the normals of points that share one result */
 
 enum { MAX_PARTS = 64 }; /* max parts along a triangle's side */
 
 /* Interpolates the values of three corners at barycentrics (b1, b2). */
-static float mix(float a, float b, float c, float b1, float b2) { return a + (b - a) * b1 + (c - a) * b2; }
+static float mix_at_corners(float a, float b, float c, float b1, float b2) { return a + (b - a) * b1 + (c - a) * b2; }
 
 static void corner_uv(float out[2], const lmb_mesh *m, uint32_t vertex)
 {
@@ -40,7 +40,7 @@ static float level_of(const lmb_texture *texture, float uv[3][2], int32_t n)
     return clampf(0.5f * lmb_log2(maxf(texels, 1e-6f)) - lmb_log2((float)n), 0.0f, (float)(texture->levels - 1));
 }
 
-static void albedo_at(float out[3], const lmb_triangle *t, const lmb_scene *scene, int32_t n, float b1, float b2)
+static void albedo_at_texel(float out[3], const lmb_triangle *t, const lmb_scene *scene, int32_t n, float b1, float b2)
 {
     const lmb_mesh *m = t->mesh;
     float texel[4] = {1, 1, 1, 1};
@@ -50,15 +50,16 @@ static void albedo_at(float out[3], const lmb_triangle *t, const lmb_scene *scen
         for (int k = 0; k < 3; ++k) {
             corner_uv(uv[k], m, t->vertex[k]);
         }
-        lmb_texture_sample(texel, texture, mix(uv[0][0], uv[1][0], uv[2][0], b1, b2),
-                           mix(uv[0][1], uv[1][1], uv[2][1], b1, b2), level_of(texture, uv, n));
+        lmb_texture_sample(texel, texture, mix_at_corners(uv[0][0], uv[1][0], uv[2][0], b1, b2),
+                           mix_at_corners(uv[0][1], uv[1][1], uv[2][1], b1, b2), level_of(texture, uv, n));
     }
     for (int c = 0; c < 3; ++c) {
         float colour = 1.0f;
         if (m->colours != NULL) {
             const uint8_t *at = m->colours + c;
-            colour = mix((float)at[4 * (size_t)t->vertex[0]], (float)at[4 * (size_t)t->vertex[1]],
-                         (float)at[4 * (size_t)t->vertex[2]], b1, b2) * (1.0f / 255.0f);
+            colour = mix_at_corners((float)at[4 * (size_t)t->vertex[0]], (float)at[4 * (size_t)t->vertex[1]],
+                                    (float)at[4 * (size_t)t->vertex[2]], b1, b2) *
+                     (1.0f / 255.0f);
         }
         out[c] = clampf(t->material->albedo[c] * colour * texel[c], 0.0f, 1.0f);
     }
@@ -73,14 +74,14 @@ typedef struct parts {
     int32_t n;
 } parts;
 
-static void part_at(lmb_texel *out, const parts *p, int32_t i, int32_t j)
+static void put_part_at(lmb_texel *out, const parts *p, int32_t i, int32_t j)
 {
     const int up = i + j < p->n;
     const float step = 1.0f / (float)p->n, third = up ? 1.0f / 3.0f : 2.0f / 3.0f;
     const float x = (float)(up ? i : p->n - 1 - i) + third, y = (float)(up ? j : p->n - 1 - j) + third;
     const lmb_vec3 *c = p->triangle->corner;
     float albedo[3];
-    albedo_at(albedo, p->triangle, p->scene, p->n, x * step, y * step);
+    albedo_at_texel(albedo, p->triangle, p->scene, p->n, x * step, y * step);
     memset(out, 0, sizeof *out);
     out->position = add3(c[0], add3(mul3(sub3(c[1], c[0]), x * step), mul3(sub3(c[2], c[0]), y * step)));
     out->normal = p->normal;
@@ -90,8 +91,8 @@ static void part_at(lmb_texel *out, const parts *p, int32_t i, int32_t j)
 }
 
 /* Writes as many parts as fit; returns the number of all. */
-static size_t put_triangle(lmb_texel *out, size_t cap, const lmb_triangle *t, const lmb_scene *scene, float leaf,
-                           const lmb_env *env)
+static size_t put_triangle_parts(lmb_texel *out, size_t cap, const lmb_triangle *t, const lmb_scene *scene, float leaf,
+                                 const lmb_env *env)
 {
     parts p = {t, scene, {0, 0, 0}, 0.0f, {0, 0, 0}, 1};
     if (!lmb_triangle_shape(&p.normal, &p.area, t)) {
@@ -105,7 +106,7 @@ static size_t put_triangle(lmb_texel *out, size_t cap, const lmb_triangle *t, co
         lmb_env_irradiance(p.light, env, p.normal);
     }
     for (size_t k = 0; k < count && k < cap; ++k) {
-        part_at(&out[k], &p, (int32_t)k % p.n, (int32_t)k / p.n);
+        put_part_at(&out[k], &p, (int32_t)k % p.n, (int32_t)k / p.n);
     }
     return count;
 }
@@ -121,7 +122,7 @@ size_t lmb_around_points(lmb_texel *out, size_t cap, const lmb_scene *scene, uin
     for (uint32_t i = 0; i < count && first_id + i <= all; ++i) {
         lmb_triangle t;
         if (lmb_triangle_fetch(&t, scene, first_id + i)) {
-            n += put_triangle(n < cap ? out + n : NULL, n < cap ? cap - n : 0, &t, scene, leaf, env);
+            n += put_triangle_parts(n < cap ? out + n : NULL, n < cap ? cap - n : 0, &t, scene, leaf, env);
         }
     }
     return n;
@@ -129,7 +130,7 @@ size_t lmb_around_points(lmb_texel *out, size_t cap, const lmb_scene *scene, uin
 
 /* --- reflected light ---------------------------------------------------------------------------------------------- */
 
-static void put_point(lmb_tile *tile, int32_t k, const lmb_texel *from)
+static void put_tile_point(lmb_tile *tile, int32_t k, const lmb_texel *from)
 {
     const float p[3] = {from->position.x, from->position.y, from->position.z},
                 n[3] = {from->normal.x, from->normal.y, from->normal.z};
@@ -147,7 +148,7 @@ static size_t run_end(const lmb_texel *all, size_t first, size_t count, float ne
     size_t i = first + 1;
     for (; i < count; ++i) {
         const lmb_vec3 d = sub3(all[i].position, all[first].position);
-        if (dot3(d, d) > near * near || dot3(all[i].normal, all[first].normal) < SAME_WAY) {
+        if (dot3(d, d) > near * near || dot3(all[i].normal, all[first].normal) < MIN_SHARED_COSINE) {
             break;
         }
     }
@@ -174,7 +175,7 @@ size_t lmb_around_gather(lmb_around_scratch *out, const lmb_texel *points, size_
     memset(&out->before, 0, sizeof out->before);
     memset(&out->now, 0, sizeof out->now);
     for (out->count = 0; out->count < LMB_TILE_PIXELS && from < count; ++out->count) {
-        put_point(&out->tile, out->count, &points[from]);
+        put_tile_point(&out->tile, out->count, &points[from]);
         out->first[out->count] = from;
         const float far = length3(sub3(points[from].position, about));
         from = run_end(points, from, count, maxf(near_m, FAR_SHARE * far));

@@ -13,7 +13,7 @@
 #define MAX_NOISE 0.02f
 #define DEPTH_STEP_M 0.001f  /* resolution of distances in files, and the best accuracy of sensors */
 
-enum { REACH = 4, BINS = 512 }; /* px between the points of a second difference */
+enum { CURVATURE_STEP_PX = 4, NOISE_BINS = 512 }; /* px between the points of a second difference */
 
 size_t lmb_cloud_bytes(int32_t width, int32_t height)
 {
@@ -76,7 +76,7 @@ static float bend(const float *at, ptrdiff_t step)
 static void count_bend(uint32_t *bins, uint32_t *count, float v)
 {
     if (v >= 0.0f) {
-        ++bins[mini((int32_t)(minf(v, 1.0f) * (float)BINS / (2.5f * MAX_NOISE)), BINS - 1)];
+        ++bins[mini((int32_t)(minf(v, 1.0f) * (float)NOISE_BINS / (2.5f * MAX_NOISE)), NOISE_BINS - 1)];
         ++*count;
     }
 }
@@ -86,31 +86,31 @@ static void count_bend(uint32_t *bins, uint32_t *count, float v)
  * deviations. */
 static float find_noise(const lmb_cloud *cloud)
 {
-    uint32_t bins[BINS] = {0}, count = 0, sum = 0;
+    uint32_t bins[NOISE_BINS] = {0}, count = 0, sum = 0;
     const int32_t w = cloud->camera.width, h = cloud->camera.height;
     int32_t i = 0;
-    for (int32_t y = REACH; y < h - REACH; y += 2) {
-        for (int32_t x = REACH; x < w - REACH; x += 2) {
+    for (int32_t y = CURVATURE_STEP_PX; y < h - CURVATURE_STEP_PX; y += 2) {
+        for (int32_t x = CURVATURE_STEP_PX; x < w - CURVATURE_STEP_PX; x += 2) {
             const float *at = cloud->inverse + (size_t)y * (size_t)w + (size_t)x;
-            count_bend(bins, &count, bend(at, REACH));
-            count_bend(bins, &count, bend(at, REACH * (ptrdiff_t)w));
+            count_bend(bins, &count, bend(at, CURVATURE_STEP_PX));
+            count_bend(bins, &count, bend(at, CURVATURE_STEP_PX * (ptrdiff_t)w));
         }
     }
-    while (i < BINS - 1 && (sum += bins[i]) < count / 2 + 1) {
+    while (i < NOISE_BINS - 1 && (sum += bins[i]) < count / 2 + 1) {
         ++i;
     }
-    const float median = ((float)i + 0.5f) * 2.5f * MAX_NOISE / (float)BINS;
+    const float median = ((float)i + 0.5f) * 2.5f * MAX_NOISE / (float)NOISE_BINS;
     return count == 0 || i == 0 ? MIN_NOISE : clampf(median / (0.6745f * 2.4494897f), MIN_NOISE, MAX_NOISE);
 }
 
-static int is_camera(const lmb_pinhole *c)
+static int is_pinhole(const lmb_pinhole *c)
 {
     return c->fx > 1e-3f && c->fy > 1e-3f && c->fx < 1e6f && c->fy < 1e6f && is_sane(c->cx) && is_sane(c->cy);
 }
 
 lmb_status lmb_cloud_init(lmb_cloud *out, const lmb_pinhole *camera, const float *depth_m, void *memory, size_t bytes)
 {
-    if (out == NULL || camera == NULL || depth_m == NULL || !is_camera(camera) ||
+    if (out == NULL || camera == NULL || depth_m == NULL || !is_pinhole(camera) ||
         lmb_cloud_bytes(camera->width, camera->height) == 0) {
         return LMB_ERR_ARG;
     }

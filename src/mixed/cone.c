@@ -100,7 +100,7 @@ lmb_status lmb_cones_init(lmb_cones *out, const lmb_voxels *v, int32_t count)
 
 /* --- tracing ------------------------------------------------------------------------------------------------------ */
 
-static int is_valid(const lmb_cone_trace *t)
+static int is_trace_valid(const lmb_cone_trace *t)
 {
     return t != NULL && t->kernels != NULL && t->voxels != NULL && t->voxels->count > 0 && t->field >= 0 &&
            t->field < LMB_VOXELS_THREE && t->voxels->light[t->field] != NULL && t->world >= 0 &&
@@ -126,8 +126,8 @@ static void follow(lmb_cone_seen *out, const lmb_cone_trace *trace, const lmb_co
 }
 
 /* The open part of the cone sees the environment, filtered to the cone's width. [M22] */
-static void finish(lmb_cone_seen *inout, const lmb_cone_trace *trace, float tangent, const lmb_tile *tile,
-                   float direction[3][LMB_TILE_PIXELS])
+static void finish_cone(lmb_cone_seen *inout, const lmb_cone_trace *trace, float tangent, const lmb_tile *tile,
+                        float direction[3][LMB_TILE_PIXELS])
 {
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         const int there = tile->depth[k] > 0.0f;
@@ -145,11 +145,11 @@ static void finish(lmb_cone_seen *inout, const lmb_cone_trace *trace, float tang
 lmb_status lmb_cones_trace(lmb_cone_seen *out, const lmb_cone_trace *trace, const lmb_cone_width *width,
                            const lmb_tile *tile, float direction[3][LMB_TILE_PIXELS])
 {
-    if (out == NULL || !is_valid(trace) || width == NULL || tile == NULL || direction == NULL) {
+    if (out == NULL || !is_trace_valid(trace) || width == NULL || tile == NULL || direction == NULL) {
         return LMB_ERR_ARG;
     }
     follow(out, trace, width, tile, direction);
-    finish(out, trace, width->tangent, tile, direction);
+    finish_cone(out, trace, width->tangent, tile, direction);
     return LMB_OK;
 }
 
@@ -158,7 +158,7 @@ static lmb_vec3 at_pixel(const float plane[3][LMB_TILE_PIXELS], int k)
     return vec3(plane[0][k], plane[1][k], plane[2][k]);
 }
 
-static void set_pixel(float plane[3][LMB_TILE_PIXELS], int k, lmb_vec3 v)
+static void set_plane_pixel(float plane[3][LMB_TILE_PIXELS], int k, lmb_vec3 v)
 {
     plane[0][k] = v.x;
     plane[1][k] = v.y;
@@ -172,7 +172,7 @@ static void set_tangents(float out[3][LMB_TILE_PIXELS], const lmb_tile *tile)
         const lmb_vec3 n = at_pixel(tile->normal, k);
         const float x = absf(n.x), y = absf(n.y), z = absf(n.z);
         const lmb_vec3 axis = x <= y && x <= z ? vec3(1, 0, 0) : y <= z ? vec3(0, 1, 0) : vec3(0, 0, 1);
-        set_pixel(out, k, normalize3(cross3(axis, n)));
+        set_plane_pixel(out, k, normalize3(cross3(axis, n)));
     }
 }
 
@@ -182,14 +182,14 @@ static void aim(float out[3][LMB_TILE_PIXELS], const lmb_tile *tile, float tange
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         const lmb_vec3 n = at_pixel(tile->normal, k), u = at_pixel((const float(*)[LMB_TILE_PIXELS])tangent, k);
         const lmb_vec3 d = add3(add3(mul3(u, along[0]), mul3(cross3(n, u), along[1])), mul3(n, along[2]));
-        set_pixel(out, k, d);
+        set_plane_pixel(out, k, d);
     }
 }
 
 lmb_status lmb_cones_diffuse(lmb_irradiance *inout, float open[LMB_TILE_PIXELS], const lmb_cone_trace *trace,
                              const lmb_cones *cones, const lmb_tile *tile)
 {
-    if (inout == NULL || !is_valid(trace) || cones == NULL || tile == NULL) {
+    if (inout == NULL || !is_trace_valid(trace) || cones == NULL || tile == NULL) {
         return LMB_ERR_ARG;
     }
     const float share = 1.0f / (float)cones->count;
@@ -202,7 +202,7 @@ lmb_status lmb_cones_diffuse(lmb_irradiance *inout, float open[LMB_TILE_PIXELS],
         const lmb_cone_width *width = &cones->width[cones->ring[i]];
         aim(s->direction, tile, s->tangent, cones->direction[i]);
         follow(&s->seen, trace, width, tile, s->direction);
-        finish(&s->seen, trace, width->tangent, tile, s->direction);
+        finish_cone(&s->seen, trace, width->tangent, tile, s->direction);
         for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
             for (int c = 0; c < 3; ++c) {
                 inout->rgb[c][k] += LMB_PI * share * s->seen.rgb[c][k];
@@ -218,16 +218,16 @@ lmb_status lmb_cones_diffuse(lmb_irradiance *inout, float open[LMB_TILE_PIXELS],
 lmb_status lmb_cones_glossy(lmb_cone_seen *out, const lmb_cone_trace *trace, const lmb_cone_width *width,
                             const lmb_tile *tile, lmb_vec3 eye)
 {
-    if (out == NULL || !is_valid(trace) || width == NULL || tile == NULL) {
+    if (out == NULL || !is_trace_valid(trace) || width == NULL || tile == NULL) {
         return LMB_ERR_ARG;
     }
     float (*direction)[LMB_TILE_PIXELS] = trace->scratch->direction;
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         const lmb_vec3 n = at_pixel(tile->normal, k), d = normalize3(sub3(at_pixel(tile->position, k), eye));
-        set_pixel(direction, k, sub3(d, mul3(n, 2.0f * dot3(n, d))));
+        set_plane_pixel(direction, k, sub3(d, mul3(n, 2.0f * dot3(n, d))));
     }
     follow(out, trace, width, tile, direction);
-    finish(out, trace, width->tangent, tile, direction);
+    finish_cone(out, trace, width->tangent, tile, direction);
     return LMB_OK;
 }
 

@@ -5,7 +5,7 @@
 
 #if LMB_MIXED
 
-#define MIRRORED 0.5f
+#define MAX_MIRRORED_SHARE 0.5f
 
 lmb_status lmb_two_maps(lmb_shadow_map maps[2], const lmb_light *light, const lmb_scene *scene, int32_t size,
                         void *memory, size_t bytes)
@@ -60,11 +60,11 @@ static float schlick(const lmb_tile *real, int32_t k, float specular)
     return specular + (1.0f - specular) * (m2 * m2 * m);
 }
 
-/* A pixel of the photo shows mirrored light plus the colour of the surface, so at most the share MIRRORED of it can be
+/* A pixel of the photo shows mirrored light plus the colour of the surface, so at most MAX_MIRRORED_SHARE of it can be
  * removed. Without this limit dark or colourful floors turn black or garish if the object hides a bright wall. */
 static float mirrored(float photo, float share, float delta)
 {
-    return photo + maxf(share * delta, -MIRRORED * photo);
+    return photo + maxf(share * delta, -MAX_MIRRORED_SHARE * photo);
 }
 
 lmb_status lmb_mirror_tile(lmb_radiance *inout, const lmb_tile *real, const lmb_planes *planes,

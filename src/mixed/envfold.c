@@ -6,21 +6,21 @@
 
 #if LMB_MIXED
 
-#define INNER 0.16666667f /* of the picture, from the middle to the edge of the middle third */
+#define INNER_THIRD 0.16666667f /* of the picture, from the middle to the edge of the middle third */
 
-enum { SUB = 4 }; /* samples along each side of a texel */
+enum { SAMPLES_A_SIDE = 4 }; /* samples along each side of a texel */
 
 /* Maps a direction in camera space to the picture, 0 .. 1 each way. The half width of the visible part grows from a
  * sixth at the front edge of a cube side to a half at the back edge. */
-static void fold(float *u, float *v, lmb_vec3 d)
+static void fold_direction(float *u, float *v, lmb_vec3 d)
 {
     const float x = absf(d.x), y = absf(d.y), z = absf(d.z), far = maxf(maxf(x, y), z);
-    const float m = z >= x && z >= y ? INNER : INNER + (1.0f + d.z / far) * INNER;
+    const float m = z >= x && z >= y ? INNER_THIRD : INNER_THIRD + (1.0f + d.z / far) * INNER_THIRD;
     *u = 0.5f + d.x / far * m;
     *v = 0.5f - d.y / far * m;
 }
 
-static const float *pixel_at(const float *rgb, int32_t width, int32_t height, float u, float v)
+static const float *photo_pixel(const float *rgb, int32_t width, int32_t height, float u, float v)
 {
     const int32_t x = mini(maxi((int32_t)(u * (float)width), 0), width - 1),
                   y = mini(maxi((int32_t)(v * (float)height), 0), height - 1);
@@ -36,16 +36,16 @@ typedef struct picture {
 
 static void fold_texel(float out[3], const lmb_env *env, const picture *from, cube_place at)
 {
-    const int32_t n = SUB * env->size;
+    const int32_t n = SAMPLES_A_SIDE * env->size;
     out[0] = out[1] = out[2] = 0.0f;
-    for (int32_t k = 0; k < SUB * SUB; ++k) {
+    for (int32_t k = 0; k < SAMPLES_A_SIDE * SAMPLES_A_SIDE; ++k) {
         float u, v;
-        const int32_t x = SUB * at.x + k % SUB, y = SUB * at.y + k / SUB;
+        const int32_t x = SAMPLES_A_SIDE * at.x + k % SAMPLES_A_SIDE, y = SAMPLES_A_SIDE * at.y + k / SAMPLES_A_SIDE;
         const lmb_vec3 d = cube_point(at.face, cube_coordinate(x, n), cube_coordinate(y, n));
-        fold(&u, &v, vec3(dot3(from->axes->right, d), dot3(from->axes->up, d), dot3(from->axes->back, d)));
-        const float *p = pixel_at(from->rgb, from->width, from->height, u, v);
+        fold_direction(&u, &v, vec3(dot3(from->axes->right, d), dot3(from->axes->up, d), dot3(from->axes->back, d)));
+        const float *p = photo_pixel(from->rgb, from->width, from->height, u, v);
         for (int32_t c = 0; c < 3; ++c) {
-            out[c] += p[c] > 0.0f && p[c] < 1e6f ? p[c] * (1.0f / (SUB * SUB)) : 0.0f;
+            out[c] += p[c] > 0.0f && p[c] < 1e6f ? p[c] * (1.0f / (SAMPLES_A_SIDE * SAMPLES_A_SIDE)) : 0.0f;
         }
     }
 }

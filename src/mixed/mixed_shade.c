@@ -6,7 +6,7 @@
 
 /* The photo hides the object if the measured depth is nearer by two standard deviations; with less, noise would hide
  * parts of the object near the ground. */
-static int is_hidden(const lmb_tile *object, const lmb_tile *real, const lmb_cloud *cloud, int32_t k)
+static int is_object_hidden(const lmb_tile *object, const lmb_tile *real, const lmb_cloud *cloud, int32_t k)
 {
     if (real->id[k] == 0) {
         return 0;
@@ -23,7 +23,7 @@ uint64_t lmb_object_tile(lmb_radiance *inout, const lmb_radiance *light, const l
         return 0;
     }
     for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
-        if (object->id[k] != 0 && !is_hidden(object, real, cloud, k)) {
+        if (object->id[k] != 0 && !is_object_hidden(object, real, cloud, k)) {
             for (int32_t c = 0; c < 3; ++c) {
                 inout->rgb[c][k] = light->rgb[c][k];
             }

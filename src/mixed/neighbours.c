@@ -16,7 +16,7 @@ static int goes_before(const nearest *n, int32_t i, uint32_t which, float d2)
     return d2 < n->d2[i] || (d2 == n->d2[i] && which < n->which[i]);
 }
 
-static void take(nearest *n, uint32_t which, float d2)
+static void take_nearest(nearest *n, uint32_t which, float d2)
 {
     int32_t i = n->count < n->k ? n->count : n->k - 1;
     if (n->count == n->k && !goes_before(n, i, which, d2)) {
@@ -48,7 +48,7 @@ int32_t lmb_cloud_nearest(int32_t *out, int32_t k, const lmb_cloud *cloud, int32
     for (int32_t j = maxi(y - 2, 0); j <= mini(y + 2, h - 1); ++j) {
         for (int32_t i = maxi(x - 2, 0); i <= mini(x + 2, w - 1); ++i) {
             if ((i != x || j != y) && cloud->inverse[(size_t)j * (size_t)w + (size_t)i] > 0.0f) {
-                take(&n, (uint32_t)(j * w + i), distance2(lmb_cloud_point(cloud, i, j), at));
+                take_nearest(&n, (uint32_t)(j * w + i), distance2(lmb_cloud_point(cloud, i, j), at));
             }
         }
     }

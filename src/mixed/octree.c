@@ -114,7 +114,7 @@ uint32_t lmb_voxels_at(const lmb_voxels *v, lmb_vec3 at, int32_t level)
 /* --- means -------------------------------------------------------------------------------------------------------- */
 
 /* Averages the children in the order of their octants. */
-static void set_mean(float *data, int floats, uint32_t to, const uint32_t from[8])
+static void set_child_mean(float *data, int floats, uint32_t to, const uint32_t from[8])
 {
     for (int i = 0; i < floats; ++i) {
         float sum = 0.0f;
@@ -132,7 +132,7 @@ static void mean_of_full(float *data, int floats, octree_cell c, int32_t level)
         const octree_cell below = {2 * c.x + (k & 1), 2 * c.y + (k >> 1 & 1), 2 * c.z + (k >> 2)};
         from[k] = octree_full(below, level + 1);
     }
-    set_mean(data, floats, octree_full(c, level), from);
+    set_child_mean(data, floats, octree_full(c, level), from);
 }
 
 /* A child is always created after its parent, so a pass from the last voxel to the first finishes all children before
@@ -146,7 +146,7 @@ void lmb_octree_mean(const lmb_voxels *v, float *data, int floats)
             for (uint32_t k = 0; k < 8; ++k) {
                 from[k] = first + k;
             }
-            set_mean(data, floats, at, from);
+            set_child_mean(data, floats, at, from);
         }
     }
     for (int32_t level = OCTREE_FULL - 1; level >= 0; --level) {

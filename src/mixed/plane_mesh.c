@@ -6,19 +6,19 @@
 
 #if LMB_MIXED
 
-#define EDGE_ON 0.25f    /* min cosine at which a cell's mean normal is used */
-#define UNEVEN 0.15f     /* max depth difference between a cell's corner and middle, as a share of the distance */
+#define MIN_CELL_COSINE 0.25f /* min cosine at which a cell's mean normal is used */
+#define MAX_DEPTH_SHARE 0.15f /* max depth difference between a cell's corner and middle, as a share of the distance */
 
 enum { CELL_FLOATS = 12, CELL_COLOURS = 16, CELL_INDICES = 6 };
 
-static int32_t parts_of(int32_t size, int32_t step) { return (size + step - 1) / step; }
+static int32_t cells_of_side(int32_t size, int32_t step) { return (size + step - 1) / step; }
 
 size_t lmb_real_mesh_bytes(int32_t width, int32_t height, int32_t step)
 {
     if (lmb_cloud_bytes(width, height) == 0 || step < 1 || step > 64) {
         return 0;
     }
-    const size_t cells = (size_t)parts_of(width, step) * (size_t)parts_of(height, step);
+    const size_t cells = (size_t)cells_of_side(width, step) * (size_t)cells_of_side(height, step);
     const size_t each =
         CELL_FLOATS * sizeof(float) + CELL_COLOURS + CELL_INDICES * sizeof(uint32_t) + sizeof(int32_t) + 4;
     return cells > (size_t)-1 / each ? 0 : cells * each; /* 32-bit targets */
@@ -31,14 +31,14 @@ typedef struct cell_box {
     int32_t x0, y0, x1, y1;
 } cell_box;
 
-static cell_box box_of(const lmb_pinhole *c, int32_t step, int32_t i, int32_t j)
+static cell_box box_of_cell(const lmb_pinhole *c, int32_t step, int32_t i, int32_t j)
 {
     const cell_box b = {i * step, j * step, mini((i + 1) * step, c->width), mini((j + 1) * step, c->height)};
     return b;
 }
 
 /* The most common label of the cell, if it is a plane and covers half of the pixels; else 0. */
-static uint8_t plane_of(const lmb_planes *planes, const lmb_pinhole *c, cell_box b)
+static uint8_t plane_of_cell(const lmb_planes *planes, const lmb_pinhole *c, cell_box b)
 {
     int32_t count[LMB_MAX_PLANES + 1] = {0}, best = 0;
     for (int32_t y = b.y0; y < b.y1; ++y) {
@@ -85,7 +85,7 @@ static float middle_inverse(const lmb_planes *planes, const lmb_cloud *cloud, ce
     return best;
 }
 
-static mean mean_of(const lmb_planes *planes, const lmb_cloud *cloud, cell_box b)
+static mean mean_of_cell(const lmb_planes *planes, const lmb_cloud *cloud, cell_box b)
 {
     mean m = {0.0f, {0, 0, 0}, 0};
     const float nearest = middle_inverse(planes, cloud, b);
@@ -112,7 +112,7 @@ static void mean_slope(float slope[3], const mean *m, const lmb_pinhole *c, cell
     slope[2] = -m->normal.z * scale;
     const float reach = 0.5f * (absf(slope[0]) * (float)(b.x1 - b.x0) / c->fx +
                                 absf(slope[1]) * (float)(b.y1 - b.y0) / c->fy);
-    if (facing > -EDGE_ON * length3(ray) || reach > UNEVEN * m->q) {
+    if (facing > -MIN_CELL_COSINE * length3(ray) || reach > MAX_DEPTH_SHARE * m->q) {
         slope[0] = slope[1] = 0.0f;
         slope[2] = m->q;
     }
@@ -121,18 +121,18 @@ static void mean_slope(float slope[3], const mean *m, const lmb_pinhole *c, cell
 /* --- the mesh ----------------------------------------------------------------------------------------------------- */
 
 /* Inputs of the mesh. */
-typedef struct maker {
+typedef struct mesh_maker {
     const lmb_cloud *cloud;
     const lmb_planes *planes;
     const lmb_axes *axes;
-} maker;
+} mesh_maker;
 
 /* Range of inverse distances of a label's pixels. */
-typedef struct span {
+typedef struct mesh_span {
     float low, high;
-} span;
+} mesh_span;
 
-static void add_span(span *s, const maker *m, cell_box b, uint8_t label)
+static void add_span(mesh_span *s, const mesh_maker *m, cell_box b, uint8_t label)
 {
     for (int32_t y = b.y0; y < b.y1; ++y) {
         for (int32_t x = b.x0; x < b.x1; ++x) {
@@ -148,19 +148,20 @@ static void add_span(span *s, const maker *m, cell_box b, uint8_t label)
 
 /* At a grazing angle a plane's depth changes fast between its last pixel and the corner of a cell. The corner is
  * clamped to the pixels of all cells that meet there. All these cells use the same pixels, so no gap opens. */
-static float near_pixels(float inverse, const maker *m, int32_t step, int32_t x, int32_t y, uint8_t label)
+static float near_plane_pixels(float inverse, const mesh_maker *m, int32_t step, int32_t x, int32_t y, uint8_t label)
 {
     const lmb_pinhole *c = &m->cloud->camera;
-    const int32_t i = parts_of(x, step), j = parts_of(y, step);
+    const int32_t i = cells_of_side(x, step), j = cells_of_side(y, step);
     const cell_box around = {maxi(i - 1, 0) * step, maxi(j - 1, 0) * step, mini((i + 1) * step, c->width),
                              mini((j + 1) * step, c->height)};
-    span s = {1e30f, 0.0f};
+    mesh_span s = {1e30f, 0.0f};
     add_span(&s, m, around, label);
-    return s.high > 0.0f ? clampf(inverse, (1.0f - UNEVEN) * s.low, (1.0f + UNEVEN) * s.high) : inverse;
+    return s.high > 0.0f ? clampf(inverse, (1.0f - MAX_DEPTH_SHARE) * s.low, (1.0f + MAX_DEPTH_SHARE) * s.high)
+                         : inverse;
 }
 
 /* Writes a cell with corners at pixel corners, counter-clockwise as seen by the camera. */
-static void put_cell(lmb_real_mesh *out, const maker *m, const float slope[3], cell_box b, uint8_t label)
+static void put_mesh_cell(lmb_real_mesh *out, const mesh_maker *m, const float slope[3], cell_box b, uint8_t label)
 {
     const int32_t xs[4] = {b.x0, b.x0, b.x1, b.x1}, ys[4] = {b.y0, b.y1, b.y1, b.y0};
     float *at = out->positions + (size_t)CELL_FLOATS * (size_t)out->count;
@@ -168,7 +169,7 @@ static void put_cell(lmb_real_mesh *out, const maker *m, const float slope[3], c
     for (int32_t k = 0; k < 4; ++k) {
         const lmb_vec3 ray = lmb_cloud_ray(&m->cloud->camera, (float)xs[k] - 0.5f, (float)ys[k] - 0.5f);
         const float inverse =
-            maxf(near_pixels(plane_inverse(slope, ray.x, ray.y), m, out->step, xs[k], ys[k], label), 1e-3f);
+            maxf(near_plane_pixels(plane_inverse(slope, ray.x, ray.y), m, out->step, xs[k], ys[k], label), 1e-3f);
         const lmb_vec3 p = lmb_axes_turn(m->axes, mul3(ray, 1.0f / inverse));
         at[3 * k] = p.x;
         at[3 * k + 1] = p.y;
@@ -185,30 +186,30 @@ static void put_cell(lmb_real_mesh *out, const maker *m, const float slope[3], c
     ++out->count;
 }
 
-static void build_cell(lmb_real_mesh *out, const maker *from, int32_t i, int32_t j)
+static void build_cell(lmb_real_mesh *out, const mesh_maker *from, int32_t i, int32_t j)
 {
     const lmb_pinhole *c = &from->cloud->camera;
-    const cell_box b = box_of(c, out->step, i, j);
-    const uint8_t label = plane_of(from->planes, c, b);
+    const cell_box b = box_of_cell(c, out->step, i, j);
+    const uint8_t label = plane_of_cell(from->planes, c, b);
     out->cell[j * out->columns + i] = -1;
     if (label != 0) {
         out->cell[j * out->columns + i] = out->count;
-        put_cell(out, from, from->planes->plane[label - 1].slope, b, label);
+        put_mesh_cell(out, from, from->planes->plane[label - 1].slope, b, label);
         return;
     }
-    const mean m = mean_of(from->planes, from->cloud, b);
+    const mean m = mean_of_cell(from->planes, from->cloud, b);
     if (4 * m.count >= (b.x1 - b.x0) * (b.y1 - b.y0)) {
         float slope[3];
         mean_slope(slope, &m, c, b);
         out->cell[j * out->columns + i] = out->count;
-        put_cell(out, from, slope, b, 0);
+        put_mesh_cell(out, from, slope, b, 0);
     }
 }
 
 lmb_status lmb_real_mesh_build(lmb_real_mesh *out, const lmb_cloud *cloud, const lmb_planes *planes, int32_t step,
                                const lmb_axes *axes, void *memory, size_t bytes)
 {
-    const maker from = {cloud, planes, axes};
+    const mesh_maker from = {cloud, planes, axes};
     if (out == NULL || axes == NULL || cloud == NULL || planes == NULL || cloud->inverse == NULL ||
         planes->label == NULL || step < 1 || step > 64) {
         return LMB_ERR_ARG;
@@ -219,8 +220,8 @@ lmb_status lmb_real_mesh_build(lmb_real_mesh *out, const lmb_cloud *cloud, const
         return status;
     }
     out->step = step;
-    out->columns = parts_of(c->width, step);
-    out->rows = parts_of(c->height, step);
+    out->columns = cells_of_side(c->width, step);
+    out->rows = cells_of_side(c->height, step);
     out->count = 0;
     const size_t cells = (size_t)out->columns * (size_t)out->rows;
     out->positions = (float *)memory;

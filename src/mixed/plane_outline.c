@@ -4,9 +4,9 @@
 #if LMB_MIXED
 
 #define BELONGS_OFF 4.5f
-#define TURNED 0.7071068f /* cosine of 45 degrees: points turned farther belong to another surface */
+#define MIN_OWN_COSINE 0.7071068f /* cosine of 45 degrees: points turned farther belong to another surface */
 
-enum { NEAR_PX = 8, SPECK = 12 };
+enum { NEAR_PX = 8, MAX_SPECK_PX = 12 };
 
 static const int32_t step_x[4] = {-1, 1, 0, 0}, step_y[4] = {0, 0, -1, 1};
 
@@ -51,12 +51,12 @@ static int may_join(const lmb_planes *p, const lmb_cloud *cloud, int32_t at, uin
     const lmb_pinhole *c = &cloud->camera;
     const lmb_flat *plane = &p->plane[label - 1];
     const lmb_vec3 n = cloud->normal[at], ray = lmb_cloud_ray(c, (float)(at % c->width), (float)(at / c->width));
-    return cloud->inverse[at] > 0.0f && (dot3(n, n) == 0.0f || dot3(n, plane->normal) >= TURNED) &&
+    return cloud->inverse[at] > 0.0f && (dot3(n, n) == 0.0f || dot3(n, plane->normal) >= MIN_OWN_COSINE) &&
            plane_off(cloud, plane->slope, cloud->inverse[at], ray) <= BELONGS_OFF;
 }
 
 /* Assigns points at edges to adjacent planes: their normals are means of two surfaces. */
-static void spread(lmb_planes *p, const lmb_cloud *cloud)
+static void spread_planes(lmb_planes *p, const lmb_cloud *cloud)
 {
     const int32_t w = cloud->camera.width, h = cloud->camera.height;
     int32_t count = 0;
@@ -107,14 +107,14 @@ static void trace_hole(lmb_planes *p, const lmb_cloud *cloud, gap *hole)
 }
 
 /* The plane around a hole, or 0. It must own nine in ten of the surrounding pixels, around specks more than half. */
-static uint8_t around(const gap *hole)
+static uint8_t pixels_around(const gap *hole)
 {
     int32_t best = 0, all = hole->beside[0];
     for (int32_t i = 1; i <= LMB_MAX_PLANES; ++i) {
         all += hole->beside[i];
         best = hole->beside[i] > hole->beside[best] || best == 0 ? i : best;
     }
-    const int speck = hole->count <= SPECK;
+    const int speck = hole->count <= MAX_SPECK_PX;
     const int32_t max = hole->beside[best];
     return (speck ? 2 * max > all : !hole->measured && 10 * max >= 9 * all) ? (uint8_t)best : 0;
 }
@@ -128,7 +128,7 @@ static void fill_holes(lmb_planes *p, const lmb_cloud *cloud)
             p->queue[0] = at;
             p->label[at] = LABEL_HOLE;
             trace_hole(p, cloud, &hole);
-            const uint8_t label = around(&hole);
+            const uint8_t label = pixels_around(&hole);
             for (int32_t i = 0; label != 0 && i < hole.count; ++i) {
                 p->label[p->queue[i]] = label;
             }
@@ -142,7 +142,7 @@ static void fill_holes(lmb_planes *p, const lmb_cloud *cloud)
 void lmb_planes_outline(lmb_planes *planes, const lmb_cloud *cloud)
 {
     settle(planes, cloud);
-    spread(planes, cloud);
+    spread_planes(planes, cloud);
     fill_holes(planes, cloud);
 }
 
@@ -163,7 +163,7 @@ void lmb_planes_farthest(float min[LMB_MAX_PLANES], const lmb_planes *planes, co
 }
 
 /* Sets `across` to the direction in the plane nearest to the camera's x. */
-static void set_axes(lmb_flat *p)
+static void set_plane_axes(lmb_flat *p)
 {
     const lmb_vec3 side = absf(p->normal.x) < 0.9f ? vec3(1, 0, 0) : vec3(0, 0, -1);
     p->across = normalize3(sub3(side, mul3(p->normal, dot3(side, p->normal))));
@@ -271,7 +271,7 @@ void lmb_planes_measure(lmb_planes *planes, const lmb_cloud *cloud)
     for (int32_t i = 0; i < planes->count; ++i) {
         lmb_flat *p = &planes->plane[i];
         p->normal = lmb_plane_normal(&p->distance, p->slope);
-        set_axes(p);
+        set_plane_axes(p);
         find_extent(p, planes, &cloud->camera, i + 1, min[i]);
     }
 }

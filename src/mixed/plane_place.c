@@ -4,10 +4,10 @@
 #if LMB_MIXED
 
 #define MIN_UP 0.34202014f /* cosine of 70 degrees: max tilt of a floor from the camera's up */
-#define LEVEL 0.90630779f    /* of 25 degrees: max tilt of level planes */
-#define UPRIGHT 0.17364818f  /* of 80 degrees: min tilt of walls */
+#define MIN_LEVEL_COSINE 0.90630779f /* of 25 degrees: max tilt of level planes */
+#define MAX_WALL_COSINE  0.17364818f /* of 80 degrees: min tilt of walls */
 
-enum { CLEAR_STEP = 4 /* px */, RIM = 8 /* points of a circle */ };
+enum { CLEAR_STEP = 4 /* px */, CIRCLE_POINTS = 8 /* points of a circle */ };
 
 /* Score of a direction as up: level planes count in full, walls half, because most pictures show more wall than floor.
  * Directions nearer to the camera's up score more: if the camera is tilted by less than 45 degrees, floors then win
@@ -18,7 +18,8 @@ static float says_up(const lmb_planes *planes, lmb_vec3 up)
     float sum = 0.0f;
     for (int32_t i = 0; i < planes->count && tall > 0.0f; ++i) {
         const float d = absf(dot3(planes->plane[i].normal, up)),
-                    says = d > LEVEL ? (d - LEVEL) / (1.0f - LEVEL) : 0.5f * maxf(1.0f - d / UPRIGHT, 0.0f);
+                    says = d > MIN_LEVEL_COSINE ? (d - MIN_LEVEL_COSINE) / (1.0f - MIN_LEVEL_COSINE)
+                                                : 0.5f * maxf(1.0f - d / MAX_WALL_COSINE, 0.0f);
         sum += (float)planes->plane[i].pixels * says;
     }
     return sum * tall * tall;
@@ -54,7 +55,7 @@ int32_t lmb_planes_floor(const lmb_planes *planes)
     float max = 0.0f;
     for (int32_t i = 0; planes != NULL && i < planes->count; ++i) {
         const lmb_flat *p = &planes->plane[i];
-        const float size = (float)p->pixels * minf(dot3(p->normal, up) - LEVEL, p->normal.y - MIN_UP);
+        const float size = (float)p->pixels * minf(dot3(p->normal, up) - MIN_LEVEL_COSINE, p->normal.y - MIN_UP);
         if (size > max) {
             max = size;
             best = i;
@@ -80,15 +81,15 @@ int lmb_planes_anchor(lmb_vec3 *out, const lmb_planes *planes, const lmb_pinhole
 /* --- the position ------------------------------------------------------------------------------------------------- */
 
 /* An upright object to be placed. */
-typedef struct standing {
+typedef struct standing_place {
     const lmb_planes *planes;
     const lmb_cloud *cloud;
     int32_t p;
     float radius, height; /* m */
-} standing;
+} standing_place;
 
 /* Pixel that shows a point, or -1. */
-static int32_t pixel_of(const lmb_pinhole *c, lmb_vec3 at)
+static int32_t pixel_of_place(const lmb_pinhole *c, lmb_vec3 at)
 {
     if (!(at.z < -1e-3f)) {
         return -1;
@@ -100,21 +101,21 @@ static int32_t pixel_of(const lmb_pinhole *c, lmb_vec3 at)
 }
 
 /* Point k of the rim, `radius` from a position on the plane and `height` above it. */
-static lmb_vec3 rim_point(const standing *s, lmb_vec3 at, int32_t k, float radius, float height)
+static lmb_vec3 rim_point(const standing_place *s, lmb_vec3 at, int32_t k, float radius, float height)
 {
-    static const float turn[RIM][2] = {{1, 0}, {0.7071f, 0.7071f}, {0, 1}, {-0.7071f, 0.7071f},
-                                       {-1, 0}, {-0.7071f, -0.7071f}, {0, -1}, {0.7071f, -0.7071f}};
+    static const float turn[CIRCLE_POINTS][2] = {{1, 0},  {0.7071f, 0.7071f},   {0, 1},  {-0.7071f, 0.7071f},
+                                                 {-1, 0}, {-0.7071f, -0.7071f}, {0, -1}, {0.7071f, -0.7071f}};
     const lmb_flat *plane = &s->planes->plane[s->p];
     const lmb_vec3 out = add3(mul3(plane->across, radius * turn[k][0]), mul3(plane->along, radius * turn[k][1]));
     return add3(add3(at, out), mul3(plane->normal, height));
 }
 
 /* Is the plane visible on the circle and on one of half the radius? */
-static int foot_is_clear(const standing *s, lmb_vec3 at)
+static int foot_is_clear(const standing_place *s, lmb_vec3 at)
 {
-    for (int32_t k = 0; k < 2 * RIM; ++k) {
-        const float radius = k < RIM ? s->radius : 0.5f * s->radius;
-        const int32_t pixel = pixel_of(&s->cloud->camera, rim_point(s, at, k % RIM, radius, 0.0f));
+    for (int32_t k = 0; k < 2 * CIRCLE_POINTS; ++k) {
+        const float radius = k < CIRCLE_POINTS ? s->radius : 0.5f * s->radius;
+        const int32_t pixel = pixel_of_place(&s->cloud->camera, rim_point(s, at, k % CIRCLE_POINTS, radius, 0.0f));
         if (pixel < 0 || s->planes->label[pixel] != s->p + 1) {
             return 0;
         }
@@ -123,11 +124,12 @@ static int foot_is_clear(const standing *s, lmb_vec3 at)
 }
 
 /* Does the body lie in the picture, half way up and at the top, with nothing measured in front of it? */
-static int body_is_clear(const standing *s, lmb_vec3 at)
+static int body_is_clear(const standing_place *s, lmb_vec3 at)
 {
-    for (int32_t k = 0; k < 2 * RIM && s->height > 0.0f; ++k) {
-        const lmb_vec3 rim = rim_point(s, at, k % RIM, s->radius, k < RIM ? s->height : 0.5f * s->height);
-        const int32_t pixel = pixel_of(&s->cloud->camera, rim);
+    for (int32_t k = 0; k < 2 * CIRCLE_POINTS && s->height > 0.0f; ++k) {
+        const lmb_vec3 rim =
+            rim_point(s, at, k % CIRCLE_POINTS, s->radius, k < CIRCLE_POINTS ? s->height : 0.5f * s->height);
+        const int32_t pixel = pixel_of_place(&s->cloud->camera, rim);
         const float q = pixel < 0 ? 0.0f : s->cloud->inverse[pixel];
         if (pixel < 0 || q + 1.0f / rim.z > 2.0f * lmb_cloud_sigma(s->cloud, q)) {
             return 0;
@@ -139,7 +141,7 @@ static int body_is_clear(const standing *s, lmb_vec3 at)
 int lmb_planes_clear(lmb_vec3 *out, const lmb_planes *planes, const lmb_cloud *cloud, int32_t p, float radius_m,
                      float height_m)
 {
-    const standing s = {planes, cloud, p, radius_m, height_m};
+    const standing_place s = {planes, cloud, p, radius_m, height_m};
     float min = 1e30f;
     if (out == NULL || !are_labels(planes, cloud) || p < 0 || p >= planes->count) {
         return 0;

@@ -8,7 +8,7 @@
 
 #if LMB_MIXED
 
-#define SAME_WAY 0.9781476f   /* cosine of 12 degrees, max angle between a seed's normal and its neighbours' */
+#define MIN_SEED_COSINE 0.9781476f /* cosine of 12 degrees, max angle between a seed's normal and its neighbours' */
 #define GROWS_OVER 0.9063078f /* of 25 degrees, max error of a point's normal from noise */
 #define ONE_PLANE 0.9975641f  /* of 4 degrees, max angle between planes that may be joined */
 #define REACH_OFF 4.5f        /* standard deviations between adjacent pixels; sensors err by more over more pixels */
@@ -36,7 +36,7 @@ typedef struct grower {
     uint8_t label;
 } grower;
 
-static int is_free(uint8_t label) { return label == 0 || label == LABEL_TRIED; }
+static int is_label_free(uint8_t label) { return label == 0 || label == LABEL_TRIED; }
 
 /* Do a point's nearest neighbours have about the same normal? */
 static int is_seed(const lmb_cloud *cloud, int32_t x, int32_t y)
@@ -48,7 +48,7 @@ static int is_seed(const lmb_cloud *cloud, int32_t x, int32_t y)
         return 0;
     }
     for (int32_t i = 0; i < count; ++i) {
-        if (dot3(cloud->normal[near[i]], n) < SAME_WAY) {
+        if (dot3(cloud->normal[near[i]], n) < MIN_SEED_COSINE) {
             return 0;
         }
     }
@@ -71,7 +71,7 @@ static void test_pixel(grower *g, int32_t x, int32_t y)
     }
     const int32_t at = y * c->width + x;
     const lmb_vec3 ray = lmb_cloud_ray(c, (float)x, (float)y);
-    if (is_free(g->planes->label[at]) && g->cloud->inverse[at] > 0.0f &&
+    if (is_label_free(g->planes->label[at]) && g->cloud->inverse[at] > 0.0f &&
         dot3(g->cloud->normal[at], g->normal) >= GROWS_OVER &&
         plane_off(g->cloud, g->slope, g->cloud->inverse[at], ray) <= REACH_OFF) {
         add_pixel(g, at, ray);
@@ -79,7 +79,7 @@ static void test_pixel(grower *g, int32_t x, int32_t y)
 }
 
 /* Starts with the plane through one point. */
-static void begin(grower *g, int32_t x, int32_t y)
+static void begin_plane(grower *g, int32_t x, int32_t y)
 {
     const int32_t at = y * g->cloud->camera.width + x;
     const lmb_vec3 ray = lmb_cloud_ray(&g->cloud->camera, (float)x, (float)y), n = g->cloud->normal[at];
@@ -94,11 +94,11 @@ static void begin(grower *g, int32_t x, int32_t y)
 }
 
 /* Grows the region from the first pixel. The plane is refitted each time the region has doubled. */
-static void grow(grower *g, int32_t x, int32_t y)
+static void grow_plane(grower *g, int32_t x, int32_t y)
 {
     int32_t next_fit = FIRST_FIT;
     float distance;
-    begin(g, x, y);
+    begin_plane(g, x, y);
     for (int32_t i = 0; i < g->count; ++i) {
         const int32_t at = g->planes->queue[i], px = at % g->cloud->camera.width, py = at / g->cloud->camera.width;
         test_pixel(g, px - 1, py);
@@ -124,7 +124,7 @@ static void relabel(lmb_planes *planes, const lmb_cloud *cloud, uint8_t from, ui
 }
 
 /* Makes a plane of a region that is large enough. If the array is full, the plane replaces the smallest. */
-static void keep(grower *g, int32_t min)
+static void keep_plane(grower *g, int32_t min)
 {
     lmb_planes *p = g->planes;
     int32_t at = p->count;
@@ -155,8 +155,8 @@ static void grow_all(lmb_planes *planes, const lmb_cloud *cloud, int32_t min)
     for (int32_t y = SEED_STEP / 2; y < cloud->camera.height; y += SEED_STEP) {
         for (int32_t x = SEED_STEP / 2; x < cloud->camera.width; x += SEED_STEP) {
             if (planes->label[y * cloud->camera.width + x] == 0 && is_seed(cloud, x, y)) {
-                grow(&g, x, y);
-                keep(&g, min);
+                grow_plane(&g, x, y);
+                keep_plane(&g, min);
             }
         }
     }
@@ -165,7 +165,7 @@ static void grow_all(lmb_planes *planes, const lmb_cloud *cloud, int32_t min)
 
 /* --- fitting and joining ------------------------------------------------------------------------------------------ */
 
-static void add_near(plane_fit *sums, const lmb_flat *p, const lmb_cloud *cloud, int32_t x, int32_t y, float off)
+static void add_near_pixel(plane_fit *sums, const lmb_flat *p, const lmb_cloud *cloud, int32_t x, int32_t y, float off)
 {
     const float q = cloud->inverse[y * cloud->camera.width + x];
     const lmb_vec3 ray = lmb_cloud_ray(&cloud->camera, (float)x, (float)y);
@@ -187,7 +187,7 @@ int lmb_planes_fit(float slope[3], const lmb_planes *planes, const lmb_cloud *cl
         for (int32_t x = p->x0; x < p->x1; ++x) {
             const int32_t at = y * c->width + x;
             if (planes->label[at] == label && cloud->inverse[at] > 0.0f) {
-                add_near(&row, p, cloud, x, y, off);
+                add_near_pixel(&row, p, cloud, x, y, off);
             }
         }
         lmb_plane_fit_join(&all, &row);

@@ -65,16 +65,16 @@ typedef struct surface {
 } surface;
 
 /* Inputs of a tile. */
-typedef struct maker {
+typedef struct tile_maker {
     const lmb_cloud *cloud;
     const lmb_planes *planes;
     const lmb_real_mesh *mesh;
     const lmb_axes *axes;
-} maker;
+} tile_maker;
 
 /* Pixels without a plane are moved onto their cell, so that the cell does not shadow those that noise put behind it.
  * Pixels far from the cell, beyond an edge, stay at the measured point. */
-static void put_on_cell(surface *s, const maker *m, int32_t c, lmb_vec3 ray, float q)
+static void put_on_cell(surface *s, const tile_maker *m, int32_t c, lmb_vec3 ray, float q)
 {
     const lmb_vec3 a = cell_corner(m->mesh, c, 0);
     const lmb_vec3 n = normalize3(cross3(sub3(cell_corner(m->mesh, c, 1), a), sub3(cell_corner(m->mesh, c, 2), a)));
@@ -86,7 +86,7 @@ static void put_on_cell(surface *s, const maker *m, int32_t c, lmb_vec3 ray, flo
     }
 }
 
-static int surface_at(surface *s, const maker *m, int32_t x, int32_t y)
+static int surface_at(surface *s, const tile_maker *m, int32_t x, int32_t y)
 {
     const lmb_pinhole *camera = &m->cloud->camera;
     const int32_t at = y * camera->width + x;
@@ -114,7 +114,7 @@ static int surface_at(surface *s, const maker *m, int32_t x, int32_t y)
     return 1;
 }
 
-static void put_pixel(lmb_tile *out, int32_t k, const surface *s)
+static void put_real_pixel(lmb_tile *out, int32_t k, const surface *s)
 {
     const float p[3] = {s->position.x, s->position.y, s->position.z}, f[3] = {s->face.x, s->face.y, s->face.z},
                 n[3] = {s->normal.x, s->normal.y, s->normal.z};
@@ -131,7 +131,7 @@ static void put_pixel(lmb_tile *out, int32_t k, const surface *s)
 lmb_status lmb_real_tile(lmb_tile *out, const lmb_cloud *cloud, const lmb_planes *planes, const lmb_real_mesh *mesh,
                          const lmb_axes *axes, int32_t x, int32_t y)
 {
-    const maker m = {cloud, planes, mesh, axes};
+    const tile_maker m = {cloud, planes, mesh, axes};
     if (out == NULL || axes == NULL || !are_labels(planes, cloud) || mesh == NULL || mesh->cell == NULL || x < 0 ||
         y < 0 || x % LMB_TILE != 0 || y % LMB_TILE != 0 || x >= cloud->camera.width || y >= cloud->camera.height) {
         return LMB_ERR_ARG;
@@ -143,7 +143,7 @@ lmb_status lmb_real_tile(lmb_tile *out, const lmb_cloud *cloud, const lmb_planes
         surface s;
         const int32_t px = x + k % LMB_TILE, py = y + k / LMB_TILE;
         if (px < cloud->camera.width && py < cloud->camera.height && surface_at(&s, &m, px, py)) {
-            put_pixel(out, k, &s);
+            put_real_pixel(out, k, &s);
         }
     }
     return LMB_OK;

@@ -6,31 +6,35 @@
 
 #if LMB_VOXELS
 
-enum { CORNERS = 12 /* a triangle cut by six planes has nine */, SAMPLES = 4, MAX = 32 /* leaf faces a leaf */ };
+enum {
+    MAX_POLYGON_CORNERS = 12 /* a triangle cut by six planes has nine */,
+    OPACITY_SAMPLES = 4,
+    MAX_LEAF_FACES = 32 /* leaf faces a leaf */
+};
 
-/* Areas are multiples of this, so sums up to MAX are exact and do not depend on the order of triangles. */
+/* Areas are multiples of this, so sums up to MAX_LEAF_FACES are exact and do not depend on the order of triangles. */
 static const float unit_area = 1.0f / 262144.0f;
 
 /* A convex polygon, in leaves. */
 typedef struct polygon {
     int count;
-    float at[CORNERS][3];
+    float at[MAX_POLYGON_CORNERS][3];
 } polygon;
 
-typedef struct builder {
+typedef struct voxel_builder {
     lmb_voxels *v;
     const int32_t *in; /* the worlds of the part */
     float share;       /* opaque share of the triangle */
     float front;       /* 1; -1 if the instance is mirrored */
     int twice;         /* double-sided */
     int full;
-} builder;
+} voxel_builder;
 
 /* --- cutting ------------------------------------------------------------------------------------------------------ */
 
-static void put(polygon *p, const float at[3])
+static void put_corner(polygon *p, const float at[3])
 {
-    if (p->count < CORNERS) {
+    if (p->count < MAX_POLYGON_CORNERS) {
         memcpy(p->at[p->count++], at, sizeof p->at[0]);
     }
 }
@@ -43,10 +47,10 @@ static void split(polygon *below, polygon *above, const polygon *p, int axis, fl
     for (int i = 0; i < p->count; ++i) {
         const float *a = p->at[i], *b = p->at[i + 1 < p->count ? i + 1 : 0];
         if (a[axis] <= cut) {
-            put(below, a);
+            put_corner(below, a);
         }
         if (a[axis] >= cut) {
-            put(above, a);
+            put_corner(above, a);
         }
         if ((a[axis] < cut && b[axis] > cut) || (a[axis] > cut && b[axis] < cut)) {
             const float *low = a[axis] < b[axis] ? a : b, *high = low == a ? b : a;
@@ -55,22 +59,22 @@ static void split(polygon *below, polygon *above, const polygon *p, int axis, fl
             for (int k = 0; k < 3; ++k) {
                 at[k] = k == axis ? cut : low[k] + (high[k] - low[k]) * t;
             }
-            put(below, at);
-            put(above, at);
+            put_corner(below, at);
+            put_corner(above, at);
         }
     }
 }
 
-typedef struct span {
+typedef struct cell_span {
     int32_t first, last; /* cells */
-} span;
+} cell_span;
 
 /* Clips the polygon to the cube along an axis; returns the range of cells of the rest. */
-static span span_of(polygon *p, int axis, int32_t side)
+static cell_span span_of_polygon(polygon *p, int axis, int32_t side)
 {
     polygon whole, rest;
     float low = 3e38f, high = -3e38f;
-    span s;
+    cell_span s;
     for (int i = 0; i < p->count; ++i) {
         low = minf(low, p->at[i][axis]);
         high = maxf(high, p->at[i][axis]);
@@ -89,7 +93,7 @@ static span span_of(polygon *p, int axis, int32_t side)
 }
 
 /* Takes the part below cell + 1 off `rest`. */
-static void take(polygon *out, polygon *rest, int axis, int32_t cell, int32_t last)
+static void take_slab(polygon *out, polygon *rest, int axis, int32_t cell, int32_t last)
 {
     if (cell == last) {
         *out = *rest;
@@ -102,7 +106,7 @@ static void take(polygon *out, polygon *rest, int axis, int32_t cell, int32_t la
 /* --- adding up ---------------------------------------------------------------------------------------------------- */
 
 /* Half the sum of the fan's cross products: the signed area seen along each axis. */
-static lmb_vec3 area_of(const polygon *p)
+static lmb_vec3 area_of_polygon(const polygon *p)
 {
     lmb_vec3 sum = vec3(0.0f, 0.0f, 0.0f);
     const float *o = p->at[0];
@@ -117,17 +121,17 @@ static lmb_vec3 area_of(const polygon *p)
 
 static void add_area(float *to, float area)
 {
-    *to = minf(*to + floorf(area * (1.0f / unit_area) + 0.5f) * unit_area, (float)MAX);
+    *to = minf(*to + floorf(area * (1.0f / unit_area) + 0.5f) * unit_area, (float)MAX_LEAF_FACES);
 }
 
 /* During the build a voxel stores area by the direction of the front, +x -x +y -y +z -z: first single-sided surfaces,
  * then double-sided ones. */
-static void add_leaf(builder *b, const polygon *p, octree_cell c)
+static void add_leaf(voxel_builder *b, const polygon *p, octree_cell c)
 {
     if (p->count < 3) {
         return;
     }
-    const lmb_vec3 sum = mul3(area_of(p), b->share * b->front);
+    const lmb_vec3 sum = mul3(area_of_polygon(p), b->share * b->front);
     const float area[3] = {sum.x, sum.y, sum.z};
     const uint32_t at = lmb_octree_leaf(b->v, c);
     if (at == 0) {
@@ -143,35 +147,35 @@ static void add_leaf(builder *b, const polygon *p, octree_cell c)
     }
 }
 
-static void add_row(builder *b, polygon *rest, octree_cell c)
+static void add_polygon_row(voxel_builder *b, polygon *rest, octree_cell c)
 {
-    const span s = span_of(rest, 0, 1 << b->v->depth);
+    const cell_span s = span_of_polygon(rest, 0, 1 << b->v->depth);
     polygon p;
     for (c.x = s.first; c.x <= s.last && !b->full; ++c.x) {
-        take(&p, rest, 0, c.x, s.last);
+        take_slab(&p, rest, 0, c.x, s.last);
         add_leaf(b, &p, c);
     }
 }
 
-static void add_slice(builder *b, polygon *rest, octree_cell c)
+static void add_slice(voxel_builder *b, polygon *rest, octree_cell c)
 {
-    const span s = span_of(rest, 1, 1 << b->v->depth);
+    const cell_span s = span_of_polygon(rest, 1, 1 << b->v->depth);
     polygon p;
     for (c.y = s.first; c.y <= s.last && !b->full; ++c.y) {
-        take(&p, rest, 1, c.y, s.last);
+        take_slab(&p, rest, 1, c.y, s.last);
         if (p.count > 0) {
-            add_row(b, &p, c);
+            add_polygon_row(b, &p, c);
         }
     }
 }
 
-static void add_polygon(builder *b, polygon *rest)
+static void add_polygon(voxel_builder *b, polygon *rest)
 {
-    const span s = span_of(rest, 2, 1 << b->v->depth);
+    const cell_span s = span_of_polygon(rest, 2, 1 << b->v->depth);
     octree_cell c = {0, 0, 0};
     polygon p;
     for (c.z = s.first; c.z <= s.last && !b->full; ++c.z) {
-        take(&p, rest, 2, c.z, s.last);
+        take_slab(&p, rest, 2, c.z, s.last);
         if (p.count > 0) {
             add_slice(b, &p, c);
         }
@@ -181,18 +185,18 @@ static void add_polygon(builder *b, polygon *rest)
 /* --- triangles ---------------------------------------------------------------------------------------------------- */
 
 /* Opaque share of a masked triangle, from four points: the centroid, and half way from there to each corner. */
-static float standing(const lmb_triangle *t, const lmb_scene *scene)
+static float opaque_share(const lmb_triangle *t, const lmb_scene *scene)
 {
-    static const float at[SAMPLES][2] = {{1.0f / 3.0f, 1.0f / 3.0f}, {2.0f / 3.0f, 1.0f / 6.0f},
-                                         {1.0f / 6.0f, 2.0f / 3.0f}, {1.0f / 6.0f, 1.0f / 6.0f}};
+    static const float at[OPACITY_SAMPLES][2] = {
+        {1.0f / 3.0f, 1.0f / 3.0f}, {2.0f / 3.0f, 1.0f / 6.0f}, {1.0f / 6.0f, 2.0f / 3.0f}, {1.0f / 6.0f, 1.0f / 6.0f}};
     int n = 0;
-    for (int i = 0; i < SAMPLES; ++i) {
+    for (int i = 0; i < OPACITY_SAMPLES; ++i) {
         n += lmb_triangle_opaque(t, scene, at[i][0], at[i][1]);
     }
-    return (float)n / SAMPLES;
+    return (float)n / OPACITY_SAMPLES;
 }
 
-static void add_triangle(builder *b, const lmb_scene *scene, uint32_t id)
+static void add_triangle(voxel_builder *b, const lmb_scene *scene, uint32_t id)
 {
     lmb_triangle t;
     polygon p;
@@ -209,13 +213,13 @@ static void add_triangle(builder *b, const lmb_scene *scene, uint32_t id)
         p.at[k][1] = at.y;
         p.at[k][2] = at.z;
     }
-    b->share = standing(&t, scene);
+    b->share = opaque_share(&t, scene);
     b->front = is_mirrored(&t.instance->to_world) ? -1.0f : 1.0f;
     b->twice = (t.material->flags & LMB_DOUBLE_SIDED) != 0;
     add_polygon(b, &p);
 }
 
-static void begin(lmb_voxels *v, int32_t depth)
+static void begin_voxels(lmb_voxels *v, int32_t depth)
 {
     v->leaf *= (float)(1 << (v->depth - depth));
     v->depth = depth;
@@ -228,9 +232,9 @@ static void begin(lmb_voxels *v, int32_t depth)
 }
 
 /* Returns 1 if everything fits. */
-static int add_parts(lmb_voxels *v, const lmb_voxel_part *parts, int32_t count)
+static int add_scene_parts(lmb_voxels *v, const lmb_voxel_part *parts, int32_t count)
 {
-    builder b = {v, NULL, 1.0f, 1.0f, 0, 0};
+    voxel_builder b = {v, NULL, 1.0f, 1.0f, 0, 0};
     for (int32_t i = 0; i < count && !b.full; ++i) {
         const lmb_voxel_part *p = &parts[i];
         const uint32_t all = lmb_scene_triangles(p->scene);
@@ -244,7 +248,7 @@ static int add_parts(lmb_voxels *v, const lmb_voxel_part *parts, int32_t count)
 
 /* Converts areas to coverage. A double-sided object thinner than a voxel shows one side at a time, so the larger of
  * both areas counts. The loop starts at the last axis, because the normal overwrites the areas of later axes. */
-static void finish(float *cover, uint32_t count)
+static void finish_cover(float *cover, uint32_t count)
 {
     for (int k = 2; k >= 0; --k) {
         float *c = cover;
@@ -271,7 +275,7 @@ static int parts_are_valid(const lmb_voxel_part *parts, int32_t count)
  * distance from the other face. So walls on the box lie 1/3 or 2/3 into their voxels on every level except the coarsest
  * three. There rounding cannot move their light into other voxels. Walls at the outer faces of voxels would be read too
  * late on every level (see cone.c). */
-static void set_cube(lmb_voxels *v, const lmb_vec3 *low, const lmb_vec3 *high, int32_t depth)
+static void set_voxel_cube(lmb_voxels *v, const lmb_vec3 *low, const lmb_vec3 *high, int32_t depth)
 {
     const float side = maxf(largest3(sub3(*high, *low)), 1e-6f) * 1.2f, margin = side / 12.0f;
     v->asked = v->depth = depth;
@@ -288,14 +292,14 @@ lmb_status lmb_voxels_build(lmb_voxels *v, const lmb_vec3 *low, const lmb_vec3 *
         !parts_are_valid(parts, count)) {
         return LMB_ERR_ARG;
     }
-    set_cube(v, low, high, depth);
-    for (begin(v, depth); !add_parts(v, parts, count);) {
-        begin(v, v->depth - 1);
+    set_voxel_cube(v, low, high, depth);
+    for (begin_voxels(v, depth); !add_scene_parts(v, parts, count);) {
+        begin_voxels(v, v->depth - 1);
     }
     v->area *= (double)v->leaf * (double)v->leaf;
     for (int32_t w = 0; w < v->worlds; ++w) {
         lmb_octree_mean(v, v->cover[w], LMB_VOXEL_COVER);
-        finish(v->cover[w], v->count);
+        finish_cover(v->cover[w], v->count);
     }
     for (int32_t f = 0; f < (v->worlds == 1 ? LMB_VOXELS_ONE : LMB_VOXELS_THREE); ++f) {
         lmb_voxels_dark(v, f);

@@ -20,10 +20,10 @@
 #if LMB_TREES
 
 enum {
-    BINS = 16,  /* along each axis */
-    LESS = 16,  /* up to this many items use half the bins: most splits are small */
-    FEW = 5,    /* up to this many items try all splits */
-    LEAF = 4    /* maximum triangles of a leaf while nodes are available */
+    AXIS_BINS = 16,        /* along each axis */
+    MAX_COARSE_ITEMS = 16, /* up to this many items use half the bins: most splits are small */
+    MAX_SORTED_ITEMS = 5,  /* up to this many items try all splits */
+    MAX_LEAF_TRIANGLES = 4 /* maximum triangles of a leaf while nodes are available */
 };
 
 size_t lmb_bvh_bytes(uint32_t n)
@@ -54,18 +54,18 @@ lmb_status lmb_bvh_init(lmb_bvh *out, uint32_t n, void *memory, size_t bytes)
 
 /* A box; an item is the box of a triangle. Four values each, because compilers vectorize these. The fourth values of an
  * item are the two halves of the id; they are unused elsewhere. */
-typedef struct span {
+typedef struct item_span {
     float low[4], high[4];
-} span;
+} item_span;
 
-static span span_none(void)
+static item_span span_none(void)
 {
-    const span s = {{3e38f, 3e38f, 3e38f, 0.0f}, {-3e38f, -3e38f, -3e38f, 0.0f}};
+    const item_span s = {{3e38f, 3e38f, 3e38f, 0.0f}, {-3e38f, -3e38f, -3e38f, 0.0f}};
     return s;
 }
 
 /* Two loops: gcc does not vectorize one. */
-static inline void span_join(span *inout, span with)
+static inline void span_join(item_span *inout, item_span with)
 {
     for (int c = 0; c < 4; ++c) {
         inout->low[c] = with.low[c] < inout->low[c] ? with.low[c] : inout->low[c];
@@ -75,15 +75,15 @@ static inline void span_join(span *inout, span with)
     }
 }
 
-static inline float half_area(const span *s)
+static inline float half_area(const item_span *s)
 {
     const float x = s->high[0] - s->low[0], y = s->high[1] - s->low[1], z = s->high[2] - s->low[2];
     return x * y + y * z + z * x;
 }
 
-static span span_of(const span *item, uint32_t count)
+static item_span span_of_items(const item_span *item, uint32_t count)
 {
-    span s = span_none();
+    item_span s = span_none();
     for (uint32_t i = 0; i < count; ++i) {
         span_join(&s, item[i]);
     }
@@ -92,7 +92,7 @@ static span span_of(const span *item, uint32_t count)
 
 /* --- triangles ---------------------------------------------------------------------------------------------------- */
 
-static void set_item(span *out, const lmb_triangle *t)
+static void set_item(item_span *out, const lmb_triangle *t)
 {
     const lmb_vec3 low = min3(min3(t->corner[0], t->corner[1]), t->corner[2]);
     const lmb_vec3 high = max3(max3(t->corner[0], t->corner[1]), t->corner[2]);
@@ -106,10 +106,10 @@ static void set_item(span *out, const lmb_triangle *t)
     out->high[3] = (float)(t->id >> 16);
 }
 
-static uint32_t item_id(const span *s) { return (uint32_t)s->low[3] | (uint32_t)s->high[3] << 16; }
+static uint32_t item_id(const item_span *s) { return (uint32_t)s->low[3] | (uint32_t)s->high[3] << 16; }
 
 /* As lmb_triangle_fetch. *instance caches the instance of the last triangle, which usually has this one too. */
-static int fetch(lmb_triangle *out, const lmb_instance **instance, const lmb_scene *scene, uint32_t id)
+static int fetch_drawable(lmb_triangle *out, const lmb_instance **instance, const lmb_scene *scene, uint32_t id)
 {
     if (*instance == NULL || id - (*instance)->first_id >= scene->meshes[(*instance)->mesh].triangle_count) {
         *instance = lmb_instance_of(scene, id);
@@ -118,14 +118,14 @@ static int fetch(lmb_triangle *out, const lmb_instance **instance, const lmb_sce
 }
 
 /* Limits on texels read to find triangles that are entirely transparent: for one triangle, and in total. */
-#define TEXELS     65536u
+#define MAX_HOLE_TEXELS 65536u
 #define ALL_TEXELS (1u << 26)
 
 /* 1 if the triangle is entirely transparent and blocks nothing. */
-NOINLINE int is_hole(const lmb_triangle *t, const lmb_scene *scene, uint32_t *texels)
+NOINLINE int is_triangle_hole(const lmb_triangle *t, const lmb_scene *scene, uint32_t *texels)
 {
     lmb_resolve_alpha alpha;
-    uint32_t own = *texels < TEXELS ? *texels : TEXELS;
+    uint32_t own = *texels < MAX_HOLE_TEXELS ? *texels : MAX_HOLE_TEXELS;
     const uint32_t before = own;
     lmb_resolve_alpha_of(&alpha, t);
     const int hole = lmb_resolve_is_hole(&alpha, scene, &own);
@@ -134,7 +134,7 @@ NOINLINE int is_hole(const lmb_triangle *t, const lmb_scene *scene, uint32_t *te
 }
 
 /* Stores the items of all triangles that can block. Returns their number. */
-static uint32_t take_items(span *out, const lmb_scene *scene)
+static uint32_t take_items(item_span *out, const lmb_scene *scene)
 {
     uint32_t texels = ALL_TEXELS;
     const uint32_t all = lmb_scene_triangles(scene);
@@ -144,8 +144,8 @@ static uint32_t take_items(span *out, const lmb_scene *scene)
         lmb_triangle t;
         lmb_vec3 normal;
         float longest;
-        if (fetch(&t, &instance, scene, id) && triangle_cross(&normal, &longest, &t) &&
-            !((t.material->flags & LMB_ALPHA_MASK) && is_hole(&t, scene, &texels))) {
+        if (fetch_drawable(&t, &instance, scene, id) && triangle_cross(&normal, &longest, &t) &&
+            !((t.material->flags & LMB_ALPHA_MASK) && is_triangle_hole(&t, scene, &texels))) {
             set_item(&out[count++], &t);
         }
     }
@@ -156,7 +156,7 @@ static uint32_t take_items(span *out, const lmb_scene *scene)
  * before a triangle overwrites it. */
 static void place_triangles(lmb_bvh_triangle *t, uint32_t count, const lmb_scene *scene)
 {
-    const span *item = (const span *)(const void *)t;
+    const item_span *item = (const item_span *)(const void *)t;
     uint32_t *id = (uint32_t *)(void *)((char *)t + (size_t)count * (sizeof *t - sizeof *id));
     const lmb_instance *instance = NULL;
     for (uint32_t i = 0; i < count; ++i) {
@@ -167,7 +167,7 @@ static void place_triangles(lmb_bvh_triangle *t, uint32_t count, const lmb_scene
         lmb_triangle from;
         lmb_vec3 normal;
         float longest;
-        if (fetch(&from, &instance, scene, own) && triangle_cross(&normal, &longest, &from)) {
+        if (fetch_drawable(&from, &instance, scene, own) && triangle_cross(&normal, &longest, &from)) {
             memcpy(t[i].corner, from.corner, sizeof from.corner);
             t[i].normal = normalize3(normal);
             t[i].id = own | (from.material->flags & LMB_ALPHA_MASK ? LMB_BVH_MASKED : 0);
@@ -176,26 +176,26 @@ static void place_triangles(lmb_bvh_triangle *t, uint32_t count, const lmb_scene
 }
 
 /* Both lie in the memory of triangles. */
-typedef char items_fit[sizeof(span) + sizeof(uint32_t) <= sizeof(lmb_bvh_triangle) ? 1 : -1];
+typedef char items_fit[sizeof(item_span) + sizeof(uint32_t) <= sizeof(lmb_bvh_triangle) ? 1 : -1];
 
 /* --- splits ------------------------------------------------------------------------------------------------------- */
 
 /* The best split of some items in two. Cost: areas x triangles; 3e38: none found. */
-typedef struct cut {
+typedef struct node_cut {
     float cost;
-    span left, right;
+    item_span left, right;
     uint32_t below;           /* items on the left */
-    uint8_t order[FEW];       /* few items: the left ones, then the others */
+    uint8_t order[MAX_SORTED_ITEMS]; /* few items: the left ones, then the others */
     int axis, bin;            /* many: the left ones are in bins below this */
     float low[4], per_bin[4]; /* bin = (twice the centre - low) x per_bin, 1/m; per_bin 0: all in one place */
-} cut;
+} node_cut;
 
 /* Maps twice the centres to bins along each axis. */
-static void set_bins(cut *out, int bins, const span *item, uint32_t count)
+static void set_bins(node_cut *out, int bins, const item_span *item, uint32_t count)
 {
-    span middles = span_none();
+    item_span middles = span_none();
     for (uint32_t i = 0; i < count; ++i) {
-        span m;
+        item_span m;
         for (int c = 0; c < 4; ++c) {
             m.low[c] = item[i].low[c] + item[i].high[c];
         }
@@ -215,7 +215,7 @@ static void set_bins(cut *out, int bins, const span *item, uint32_t count)
 }
 
 /* The bins of an item along the three axes. */
-static inline void bins_of(int32_t out[4], const cut *c, const span *item)
+static inline void bins_of(int32_t out[4], const node_cut *c, const item_span *item)
 {
     for (int k = 0; k < 4; ++k) {
         out[k] = (int32_t)((item->low[k] + item->high[k] - c->low[k]) * c->per_bin[k]);
@@ -223,12 +223,12 @@ static inline void bins_of(int32_t out[4], const cut *c, const span *item)
 }
 
 /* Contents of the bins of an axis. */
-typedef struct bins {
-    span box[BINS];
-    uint32_t count[BINS];
-} bins;
+typedef struct split_bins {
+    item_span box[AXIS_BINS];
+    uint32_t count[AXIS_BINS];
+} split_bins;
 
-static void fill_bins(bins out[3], int many, const cut *c, const span *item, uint32_t count)
+static void fill_bins(split_bins out[3], int many, const node_cut *c, const item_span *item, uint32_t count)
 {
     for (int axis = 0; axis < 3; ++axis) {
         for (int i = 0; i < many; ++i) {
@@ -237,7 +237,7 @@ static void fill_bins(bins out[3], int many, const cut *c, const span *item, uin
         }
     }
     for (uint32_t i = 0; i < count; ++i) {
-        const span from = item[i];
+        const item_span from = item[i];
         int32_t bin[4];
         bins_of(bin, c, &from);
         span_join(&out[0].box[bin[0]], from);
@@ -250,10 +250,10 @@ static void fill_bins(bins out[3], int many, const cut *c, const span *item, uin
 }
 
 /* The cheapest split between the bins of an axis. Returns 1 if it is cheaper than *best was. */
-static int sweep(cut *best, const bins *b, int many, uint32_t count)
+static int sweep(node_cut *best, const split_bins *b, int many, uint32_t count)
 {
-    float right[BINS];
-    span s = span_none();
+    float right[AXIS_BINS];
+    item_span s = span_none();
     int found = 0;
     uint32_t below = 0;
     for (int i = many - 1; i > 0; --i) {
@@ -278,10 +278,10 @@ static int sweep(cut *best, const bins *b, int many, uint32_t count)
 }
 
 /* Many items: the best split between bins. */
-static void cut_bins(cut *best, const span *item, uint32_t count)
+static void cut_bins(node_cut *best, const item_span *item, uint32_t count)
 {
-    bins b[3];
-    const int many = count > LESS ? BINS : BINS / 2;
+    split_bins b[3];
+    const int many = count > MAX_COARSE_ITEMS ? AXIS_BINS : AXIS_BINS / 2;
     set_bins(best, many, item, count);
     fill_bins(b, many, best, item, count);
     for (int axis = 0; axis < 3; ++axis) {
@@ -296,16 +296,16 @@ static void cut_bins(cut *best, const span *item, uint32_t count)
 }
 
 /* Over all axes. */
-static float middle_sum(const span *s)
+static float middle_sum(const item_span *s)
 {
     return (s->low[0] + s->high[0]) + (s->low[1] + s->high[1]) + (s->low[2] + s->high[2]);
 }
 
 /* Few items: the best of all splits, with the lower part on the left as with bins. A set of items is a bit mask. */
-static void cut_few(cut *best, const span *item, uint32_t count)
+static void cut_few(node_cut *best, const item_span *item, uint32_t count)
 {
-    span box[1 << FEW];
-    float area[1 << FEW], many[1 << FEW];
+    item_span box[1 << MAX_SORTED_ITEMS];
+    float area[1 << MAX_SORTED_ITEMS], many[1 << MAX_SORTED_ITEMS];
     const uint32_t all = (1u << count) - 1;
     uint32_t left = 0;
     box[0] = span_none();
@@ -335,9 +335,9 @@ static void cut_few(cut *best, const span *item, uint32_t count)
     }
 }
 
-static void part_few(cut *c, span *item, uint32_t count)
+static void part_few(node_cut *c, item_span *item, uint32_t count)
 {
-    span in[FEW];
+    item_span in[MAX_SORTED_ITEMS];
     memcpy(in, item, count * sizeof *item);
     c->left = c->right = span_none();
     for (uint32_t i = 0; i < count; ++i) {
@@ -347,13 +347,13 @@ static void part_few(cut *c, span *item, uint32_t count)
 }
 
 /* Moves items below the split to the front. */
-static void part_bins(const cut *c, span *item, uint32_t count)
+static void part_bins(const node_cut *c, item_span *item, uint32_t count)
 {
     const int axis = c->axis, bin = c->bin;
     const float low = c->low[axis], per_bin = c->per_bin[axis];
     uint32_t below = 0;
     for (uint32_t i = 0; i < count; ++i) {
-        const span from = item[i];
+        const item_span from = item[i];
         item[i] = item[below];
         item[below] = from;
         below += (int32_t)((from.low[axis] + from.high[axis] - low) * per_bin) < bin;
@@ -364,13 +364,13 @@ static void part_bins(const cut *c, span *item, uint32_t count)
 
 /* A contiguous run of triangles. */
 typedef struct run {
-    span box;
+    item_span box;
     float area;
     uint32_t first, count;
     int whole; /* 1: no split pays off */
 } run;
 
-static void set_run(run *out, const span *box, uint32_t first, uint32_t count)
+static void set_run(run *out, const item_span *box, uint32_t first, uint32_t count)
 {
     out->box = *box;
     out->area = half_area(box);
@@ -381,31 +381,31 @@ static void set_run(run *out, const span *box, uint32_t first, uint32_t count)
 
 /* Splits a run in two, the second into *more. Returns 0 if that does not pay off. *halves: split into halves; set if
  * only that is possible. */
-static int cut_run(span *items, run *r, run *more, int *halves)
+static int cut_run(item_span *items, run *r, run *more, int *halves)
 {
-    span *item = items + r->first;
+    item_span *item = items + r->first;
     const uint32_t first = r->first, count = r->count;
-    cut best = {0};
+    node_cut best = {0};
     best.cost = 3e38f;
-    if (count <= FEW) {
+    if (count <= MAX_SORTED_ITEMS) {
         cut_few(&best, item, count);
     } else if (!*halves) {
         cut_bins(&best, item, count);
     }
     /* Testing a box costs about as much as testing a triangle. */
-    if (count <= LEAF && !(best.cost + r->area < r->area * (float)count)) {
+    if (count <= MAX_LEAF_TRIANGLES && !(best.cost + r->area < r->area * (float)count)) {
         r->whole = 1;
         return 0;
     }
-    if (count <= FEW) {
+    if (count <= MAX_SORTED_ITEMS) {
         part_few(&best, item, count);
     } else if (best.cost < 3e38f) {
         part_bins(&best, item, count);
     } else {
         *halves = 1;
         best.below = count / 2;
-        best.left = span_of(item, best.below);
-        best.right = span_of(item + best.below, count - best.below);
+        best.left = span_of_items(item, best.below);
+        best.right = span_of_items(item + best.below, count - best.below);
     }
     set_run(r, &best.left, first, best.below);
     set_run(more, &best.right, first + best.below, count - best.below);
@@ -424,7 +424,7 @@ static int next_run(const run *r, int count, int halves)
     return best;
 }
 
-static void set_box(lmb_boxes *node, int i, const run *r)
+static void set_run_box(lmb_boxes *node, int i, const run *r)
 {
     const float *low = r->box.low, *high = r->box.high;
     const float size = maxf(high[0] - low[0], maxf(high[1] - low[1], high[2] - low[2])),
@@ -449,12 +449,12 @@ static void set_no_box(lmb_boxes *node, int i)
 }
 
 /* Fills a node with the triangles first .. first + count - 1 as up to sixteen leaves. */
-static void fill_node(lmb_boxes *node, span *items, uint32_t first, uint32_t count, int depth)
+static void fill_node(lmb_boxes *node, item_span *items, uint32_t first, uint32_t count, int depth)
 {
-    const int too_many = count > (uint64_t)LEAF << 4 * (LMB_TRAVERSAL_LEVELS - 1 - depth);
+    const int too_many = count > (uint64_t)MAX_LEAF_TRIANGLES << 4 * (LMB_TRAVERSAL_LEVELS - 1 - depth);
     run r[LMB_BOXES];
     int runs = 1, next, halves = too_many;
-    const span box = span_of(items + first, count);
+    const item_span box = span_of_items(items + first, count);
     set_run(&r[0], &box, first, count);
     while (runs < LMB_BOXES && (next = next_run(r, runs, halves)) >= 0) {
         int by_halves = halves;
@@ -464,7 +464,7 @@ static void fill_node(lmb_boxes *node, span *items, uint32_t first, uint32_t cou
     }
     for (int i = 0; i < LMB_BOXES; ++i) {
         if (i < runs) {
-            set_box(node, i, &r[i]);
+            set_run_box(node, i, &r[i]);
         } else {
             set_no_box(node, i);
         }
@@ -472,17 +472,17 @@ static void fill_node(lmb_boxes *node, span *items, uint32_t first, uint32_t cou
 }
 
 /* A node on the traversal stack, with the set of inner children still to be visited: box i is bit LMB_BOXES - 1 - i. */
-typedef struct branch {
+typedef struct node_branch {
     uint32_t node, children;
-} branch;
+} node_branch;
 
 /* Turns leaves of a node that are too large into nodes, on level `deep`. */
-static branch branch_at(lmb_bvh *b, span *items, uint32_t at, int deep)
+static node_branch branch_at(lmb_bvh *b, item_span *items, uint32_t at, int deep)
 {
     lmb_boxes *node = &b->node[at];
-    branch out = {at, 0};
+    node_branch out = {at, 0};
     for (int i = 0; i < LMB_BOXES; ++i) {
-        if (node->count[i] > LEAF && b->node_count < b->node_cap && deep < LMB_TRAVERSAL_LEVELS) {
+        if (node->count[i] > MAX_LEAF_TRIANGLES && b->node_count < b->node_cap && deep < LMB_TRAVERSAL_LEVELS) {
             const uint32_t child = b->node_count++;
             fill_node(&b->node[child], items, node->first[i], node->count[i], deep);
             node->first[i] = child;
@@ -494,13 +494,13 @@ static branch branch_at(lmb_bvh *b, span *items, uint32_t at, int deep)
 }
 
 /* Depth first, the last child before the others. */
-static void grow(lmb_bvh *b, span *items)
+static void grow_nodes(lmb_bvh *b, item_span *items)
 {
-    branch way[LMB_TRAVERSAL_LEVELS];
+    node_branch way[LMB_TRAVERSAL_LEVELS];
     int depth = 0;
     way[0] = branch_at(b, items, 0, 1);
     while (depth >= 0) {
-        branch *up = &way[depth];
+        node_branch *up = &way[depth];
         if (up->children == 0) {
             --depth;
         } else {
@@ -523,12 +523,12 @@ lmb_status lmb_bvh_build(lmb_bvh *inout, const lmb_scene *scene)
     if (lmb_scene_triangles(scene) > inout->triangle_cap) {
         return LMB_ERR_CAPACITY;
     }
-    span *items = (span *)(void *)inout->triangle;
+    item_span *items = (item_span *)(void *)inout->triangle;
     inout->triangle_count = take_items(items, scene);
     if (inout->triangle_count > 0) {
         fill_node(inout->node, items, 0, inout->triangle_count, 0);
         inout->node_count = 1;
-        grow(inout, items);
+        grow_nodes(inout, items);
         place_triangles(inout->triangle, inout->triangle_count, scene);
     }
     lmb_hull_find(&inout->hull, scene);

@@ -20,8 +20,8 @@
 
 #if LMB_TREES
 
-#define ROOM 1.0009765625f /* 1 + 2^-10: how far rounding may move a point out of the box */
-#define FAR  0.125f        /* weight of a coordinate relative to a distance in the room */
+#define ROUNDING_MARGIN   1.0009765625f /* 1 + 2^-10: how far rounding may move a point out of the box */
+#define COORDINATE_WEIGHT 0.125f        /* weight of a coordinate relative to a distance in the room */
 
 static double above(lmb_vec3 normal, lmb_vec3 at, lmb_vec3 p)
 {
@@ -29,13 +29,13 @@ static double above(lmb_vec3 normal, lmb_vec3 at, lmb_vec3 p)
            (double)normal.z * ((double)p.z - (double)at.z);
 }
 
-static int is_same(lmb_vec3 a, lmb_vec3 b, float sign)
+static int is_same_plane(lmb_vec3 a, lmb_vec3 b, float sign)
 {
     return a.x == sign * b.x && a.y == sign * b.y && a.z == sign * b.z;
 }
 
 /* Triangle `id` and its normal. Returns 0 if it blocks nothing. */
-static int take(lmb_triangle *t, lmb_vec3 *normal, const lmb_scene *scene, uint32_t id)
+static int take_drawable(lmb_triangle *t, lmb_vec3 *normal, const lmb_scene *scene, uint32_t id)
 {
     float area;
     return lmb_triangle_fetch(t, scene, id) && lmb_triangle_shape(normal, &area, t);
@@ -44,7 +44,7 @@ static int take(lmb_triangle *t, lmb_vec3 *normal, const lmb_scene *scene, uint3
 /* 1 if the normal and the corners of a triangle match plane k. */
 static int lies_in(const lmb_hull *h, int k, const lmb_triangle *t, lmb_vec3 normal)
 {
-    int in = is_same(normal, h->normal[k], 1.0f) || is_same(normal, h->normal[k], -1.0f);
+    int in = is_same_plane(normal, h->normal[k], 1.0f) || is_same_plane(normal, h->normal[k], -1.0f);
     for (int i = 0; i < 3 && in; ++i) {
         const double d = above(h->normal[k], h->at[k], t->corner[i]);
         in = d <= (double)h->slack && d >= -(double)h->slack;
@@ -53,12 +53,12 @@ static int lies_in(const lmb_hull *h, int k, const lmb_triangle *t, lmb_vec3 nor
 }
 
 /* Sets middle, reach and slack. */
-static void measure(lmb_hull *out, const lmb_scene *scene, uint32_t triangles)
+static void measure_hull(lmb_hull *out, const lmb_scene *scene, uint32_t triangles)
 {
     lmb_triangle t;
     lmb_vec3 normal, low = vec3(3e38f, 3e38f, 3e38f), high = vec3(-3e38f, -3e38f, -3e38f);
     for (uint32_t id = 1; id <= triangles; ++id) {
-        const int corners = take(&t, &normal, scene, id) ? 3 : 0;
+        const int corners = take_drawable(&t, &normal, scene, id) ? 3 : 0;
         for (int c = 0; c < corners; ++c) {
             low = min3(low, t.corner[c]);
             high = max3(high, t.corner[c]);
@@ -66,8 +66,8 @@ static void measure(lmb_hull *out, const lmb_scene *scene, uint32_t triangles)
     }
     out->middle = mul3(add3(low, high), 0.5f);
     const float step = maxf(largest3(sub3(high, out->middle)), largest3(sub3(low, out->middle)));
-    out->reach = step * ROOM;
-    out->slack = (step + FAR * maxf(largest3(low), largest3(high))) * (LMB_NOISE_HULL * 0.25f);
+    out->reach = step * ROUNDING_MARGIN;
+    out->slack = (step + COORDINATE_WEIGHT * maxf(largest3(low), largest3(high))) * (LMB_NOISE_HULL * 0.25f);
 }
 
 /* 1 if there are more normals than planes in a hull. In most scenes a few triangles decide this. */
@@ -78,10 +78,11 @@ static int has_many_normals(lmb_hull *scratch, const lmb_scene *scene, uint32_t 
     int count = 0;
     for (uint32_t id = 1; id <= triangles; ++id) {
         int k = 0;
-        if (!take(&t, &normal, scene, id)) {
+        if (!take_drawable(&t, &normal, scene, id)) {
             continue;
         }
-        while (k < count && !is_same(normal, scratch->normal[k], 1.0f) && !is_same(normal, scratch->normal[k], -1.0f)) {
+        while (k < count && !is_same_plane(normal, scratch->normal[k], 1.0f) &&
+               !is_same_plane(normal, scratch->normal[k], -1.0f)) {
             ++k;
         }
         if (k == LMB_HULL_PLANES) {
@@ -100,7 +101,7 @@ static int find_planes(lmb_hull *out, const lmb_scene *scene, uint32_t triangles
     lmb_vec3 normal;
     for (uint32_t id = 1; id <= triangles; ++id) {
         int k = 0;
-        if (!take(&t, &normal, scene, id)) {
+        if (!take_drawable(&t, &normal, scene, id)) {
             continue;
         }
         while (k < out->count && !lies_in(out, k, &t, normal)) {
@@ -125,7 +126,7 @@ static int turn_plane(lmb_hull *h, int k, const lmb_scene *scene, uint32_t trian
     lmb_vec3 normal;
     double low = 0.0, high = 0.0;
     for (uint32_t id = 1; id <= triangles && (high <= (double)h->slack || low >= -(double)h->slack); ++id) {
-        const int corners = take(&t, &normal, scene, id) ? 3 : 0;
+        const int corners = take_drawable(&t, &normal, scene, id) ? 3 : 0;
         for (int c = 0; c < corners; ++c) {
             const double d = above(h->normal[k], h->at[k], t.corner[c]);
             low = d < low ? d : low;
@@ -149,7 +150,7 @@ void lmb_hull_find(lmb_hull *out, const lmb_scene *scene)
     if (has_many_normals(out, scene, triangles)) {
         return;
     }
-    measure(out, scene, triangles);
+    measure_hull(out, scene, triangles);
     is_convex = find_planes(out, scene, triangles);
     for (int k = 0; k < out->count && is_convex; ++k) {
         is_convex = turn_plane(out, k, scene, triangles);

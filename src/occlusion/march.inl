@@ -4,8 +4,8 @@
 
 /* Two stored depths a pixel apart are one surface if they differ by at most this share, or by this many times the step
  * beside them: d is affine over a plane, so an edge-on wall has even steps and a silhouette does not. */
-#define JUMP 0.02f
-#define SLOPE 2.0f
+#define MIN_JUMP_SHARE   0.02f
+#define MIN_SLOPE_FACTOR 2.0f
 /* Square of the assumed depth of an object behind its front, in lengths of the segment that it hides: a segment through
  * the centre of a ball is half the hidden length behind the front. Trim at 0 / 1/2 / 1 length: corner_contact 0.190
  * 0.073 0.088, bunny_room 0.081 0.076 0.112, cornell 0.051 0.036 0.030, grazing_sun 0.059 0.065 0.083. */
@@ -220,8 +220,8 @@ LANE_NOINLINE lane_mask march_crosses(const lmb_march_job *m, const seen_from *s
     march_height(&before, m, s, r, lane_sub(from, pixel));
     march_height(&after, m, s, r, lane_add(to, pixel));
     lane slope = lane_max(march_gap(before, from_d), march_gap(to_d, after));
-    return lane_le(jump,
-                   lane_add(lane_mul(lane_splat(JUMP), lane_min(from_d, to_d)), lane_mul(lane_splat(SLOPE), slope)));
+    return lane_le(jump, lane_add(lane_mul(lane_splat(MIN_JUMP_SHARE), lane_min(from_d, to_d)),
+                                  lane_mul(lane_splat(MIN_SLOPE_FACTOR), slope)));
 }
 
 /* The point at share t of the segments, in the viewer's axes, m. */

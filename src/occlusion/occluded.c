@@ -13,24 +13,15 @@
 
 /* Number of leaves tested against the pyramid of all segments. Further leaves are tested against each segment, because
  * in a fine mesh most segments pass between triangles. */
-#define BY_PYRAMID 4
-#define FEW        7      /* up to this many pixels are traced one by one: in foliage they lie far apart, in a wide
-                             pyramid */
-#ifndef WIDE
-#define WIDE       8u    /* boxes per pixel at which a pyramid is abandoned: single pixels meet fewer */
-#endif
-#define ALONE      15u   /* number of following points traced pixel by pixel after an abandoned pyramid */
-#define MUCH       16     /* a triangle that blocks this many pixels is tested first for the next segments */
-#define MISSES     2      /* after this many triangles that block only one pixel, none is retried for the others */
-#define THIN       1e-20f /* m: minimum width of a pyramid */
+#define BY_PYRAMID  4
 #define READ_MASKED 2u    /* tests that reading a triangle with holes costs, beside one for each pixel that meets it */
 
 static void pyramid_axis(lmb_pyramid *out, int axis, float at, float low, float high)
 {
     const float d1 = high - at, d0 = low - at;
     out->at[axis] = at;
-    out->per_high[axis] = 1.0f / (absf(d1) < THIN ? THIN : d1);
-    out->per_low[axis] = 1.0f / (absf(d0) < THIN ? -THIN : d0);
+    out->per_high[axis] = 1.0f / (absf(d1) < MIN_PYRAMID_M ? MIN_PYRAMID_M : d1);
+    out->per_low[axis] = 1.0f / (absf(d0) < MIN_PYRAMID_M ? -MIN_PYRAMID_M : d0);
 }
 
 static lmb_pyramid pyramid_of(const lmb_tile *tile, uint64_t pixels, lmb_vec3 at)
@@ -61,10 +52,7 @@ float lmb_tile_noise(const lmb_tile *tile, uint64_t pixels)
 
 /* The plane through the point and two corners: 2 (b x c), computed without the product of two nearly equal vectors,
  * which would cancel for a small edge far away. Swapping the corners negates the result exactly. */
-static inline lmb_vec3 edge_plane(lmb_vec3 b, lmb_vec3 c, lmb_vec3 edge)
-{
-    return cross3(add3(b, c), edge);
-}
+static inline lmb_vec3 edge_plane_towards(lmb_vec3 b, lmb_vec3 c, lmb_vec3 edge) { return cross3(add3(b, c), edge); }
 
 /* A triangle as seen from the point. noise: of both ends; kept: has the eye, or NULL. Returns 0 if the point lies in
  * the triangle's plane. */
@@ -80,14 +68,14 @@ static int cross_job(lmb_cross_job *out, const lmb_bvh_triangle *t, lmb_vec3 at,
     }
     out->at = at;
     if (ahead < 0.0f) {
-        out->edge[0] = edge_plane(b, c, sub3(p[1], p[2]));
-        out->edge[1] = edge_plane(c, a, sub3(p[2], p[0]));
-        out->edge[2] = edge_plane(a, b, sub3(p[0], p[1]));
+        out->edge[0] = edge_plane_towards(b, c, sub3(p[1], p[2]));
+        out->edge[1] = edge_plane_towards(c, a, sub3(p[2], p[0]));
+        out->edge[2] = edge_plane_towards(a, b, sub3(p[0], p[1]));
         out->normal = mul3(t->normal, -1.0f);
     } else {
-        out->edge[0] = edge_plane(b, c, sub3(p[2], p[1]));
-        out->edge[1] = edge_plane(c, a, sub3(p[0], p[2]));
-        out->edge[2] = edge_plane(a, b, sub3(p[1], p[0]));
+        out->edge[0] = edge_plane_towards(b, c, sub3(p[2], p[1]));
+        out->edge[1] = edge_plane_towards(c, a, sub3(p[0], p[2]));
+        out->edge[2] = edge_plane_towards(a, b, sub3(p[1], p[0]));
         out->normal = t->normal;
     }
     out->beyond = absf(ahead) + noise;
@@ -102,7 +90,7 @@ static int cross_job(lmb_cross_job *out, const lmb_bvh_triangle *t, lmb_vec3 at,
 }
 
 /* Returns 0 if there is no such triangle. */
-NOINLINE int alpha_of(lmb_resolve_alpha *out, const lmb_bvh *b, uint32_t id)
+NOINLINE int alpha_of_masked(lmb_resolve_alpha *out, const lmb_bvh *b, uint32_t id)
 {
     lmb_triangle triangle;
     if (!lmb_triangle_fetch(&triangle, b->scene, id)) {
@@ -113,12 +101,12 @@ NOINLINE int alpha_of(lmb_resolve_alpha *out, const lmb_bvh *b, uint32_t id)
 }
 
 /* Returns those pixels with segments across a triangle with holes that hit an opaque part. */
-static uint64_t standing(const lmb_bvh *b, const lmb_bvh_triangle *t, const lmb_cross_job *job, const lmb_tile *tile,
-                         uint64_t crossed)
+static uint64_t opaque_pixels(const lmb_bvh *b, const lmb_bvh_triangle *t, const lmb_cross_job *job,
+                              const lmb_tile *tile, uint64_t crossed)
 {
     uint64_t out = 0;
     lmb_resolve_alpha alpha;
-    if (!alpha_of(&alpha, b, t->id & ~LMB_BVH_MASKED)) {
+    if (!alpha_of_masked(&alpha, b, t->id & ~LMB_BVH_MASKED)) {
         return 0;
     }
     for (uint64_t bits = crossed; bits != 0; bits &= bits - 1) {
@@ -134,7 +122,7 @@ static uint64_t standing(const lmb_bvh *b, const lmb_bvh_triangle *t, const lmb_
 }
 
 /* One traversal. */
-typedef struct traversal {
+typedef struct tile_traversal {
     const lmb_bvh *b;
     const lmb_kernels *kernels;
     const lmb_tile *tile;
@@ -143,10 +131,10 @@ typedef struct traversal {
     lmb_traversal *kept;
     uint64_t left; /* pixels not blocked so far */
     uint32_t *own; /* by pixel: the triangle that blocked it last, as in kept->last; or NULL */
-} traversal;
+} tile_traversal;
 
 /* Notes the triangle, as in kept->last, that blocks pixels. */
-static void keep_own(const traversal *w, uint64_t blocked, uint32_t triangle)
+static void keep_own(const tile_traversal *w, uint64_t blocked, uint32_t triangle)
 {
     for (uint64_t bits = w->own != NULL ? blocked : 0; bits != 0; bits &= bits - 1) {
         w->own[lowest_bit_64(bits)] = triangle;
@@ -154,14 +142,14 @@ static void keep_own(const traversal *w, uint64_t blocked, uint32_t triangle)
 }
 
 /* As standing(), and counts the cost: READ_MASKED tests for the triangle, and one for each pixel. */
-static uint64_t test_holes(traversal *w, const lmb_bvh_triangle *t, const lmb_cross_job *job, uint64_t crossed)
+static uint64_t test_holes(tile_traversal *w, const lmb_bvh_triangle *t, const lmb_cross_job *job, uint64_t crossed)
 {
     w->kept->spent += READ_MASKED + (uint32_t)count_bits_64(crossed);
-    return standing(w->b, t, job, w->tile, crossed);
+    return opaque_pixels(w->b, t, job, w->tile, crossed);
 }
 
 /* Clears the pixels of `asked` that one triangle blocks. */
-static void test_triangle(traversal *w, uint32_t triangle, uint64_t asked)
+static void test_blocking_triangle(tile_traversal *w, uint32_t triangle, uint64_t asked)
 {
     const lmb_bvh_triangle *t = &w->b->triangle[triangle];
     lmb_cross_job job;
@@ -175,11 +163,11 @@ static void test_triangle(traversal *w, uint32_t triangle, uint64_t asked)
 }
 
 /* Tests the last occluders. Returns 1 if they block all pixels. */
-static int test_last(traversal *w)
+static int test_last(tile_traversal *w)
 {
     for (int i = 0; i < LMB_LAST_OCCLUDERS && w->kept->last[i] != 0; ++i) {
         const uint32_t triangle = w->kept->last[i] - 1;
-        test_triangle(w, triangle, w->left);
+        test_blocking_triangle(w, triangle, w->left);
         if (w->left == 0) {
             traversal_remember(w->kept->last, LMB_LAST_OCCLUDERS, triangle);
             return 1;
@@ -188,13 +176,13 @@ static int test_last(traversal *w)
     return 0;
 }
 
-static void test_leaf(traversal *w, const lmb_boxes *node, int i, uint64_t asked)
+static void test_boxes_leaf(tile_traversal *w, const lmb_boxes *node, int i, uint64_t asked)
 {
     for (uint32_t k = 0; k < node->count[i] && (w->left & asked) != 0 && !traversal_is_over(w->kept); ++k) {
         const uint64_t before = w->left;
         ++w->kept->spent;
-        test_triangle(w, node->first[i] + k, asked);
-        if (count_bits_64(before & ~w->left) >= MUCH) {
+        test_blocking_triangle(w, node->first[i] + k, asked);
+        if (count_bits_64(before & ~w->left) >= MIN_BLOCKED_PIXELS) {
             traversal_remember(w->kept->last, LMB_LAST_OCCLUDERS, node->first[i] + k);
         }
     }
@@ -207,11 +195,11 @@ typedef struct rays {
 } rays;
 
 /* A node with tested leaves, and the children still to visit: box i is bit LMB_BOXES - 1 - i. */
-typedef struct branch {
+typedef struct tile_branch {
     uint32_t node, children;
-} branch;
+} tile_branch;
 
-static uint32_t test_node(traversal *w, rays *r, const lmb_boxes *node)
+static uint32_t test_boxes(tile_traversal *w, rays *r, const lmb_boxes *node)
 {
     uint32_t children = 0;
     ++w->kept->asked;
@@ -231,18 +219,18 @@ static uint32_t test_node(traversal *w, rays *r, const lmb_boxes *node)
             }
             here = w->kernels->through(&w->kept->segments, here, node, i);
         }
-        test_leaf(w, node, i, here);
+        test_boxes_leaf(w, node, i, here);
     }
     return children;
 }
 
 /* Traces the remaining pixels with one pyramid. Returns 0 if that takes over `limit` boxes: some may still be
  * blocked. */
-static int trace_together(traversal *w, uint32_t limit)
+static int trace_together(tile_traversal *w, uint32_t limit)
 {
     const lmb_bvh *bvh = w->b;
     const uint32_t before = w->kept->asked;
-    branch waiting[LMB_TRAVERSAL_LEVELS];
+    tile_branch waiting[LMB_TRAVERSAL_LEVELS];
     rays r;
     int count = 0;
     uint32_t here = 0;
@@ -250,7 +238,7 @@ static int trace_together(traversal *w, uint32_t limit)
     r.leaves = 0;
     for (;;) {
         waiting[count].node = here;
-        waiting[count].children = test_node(w, &r, &bvh->node[here]);
+        waiting[count].children = test_boxes(w, &r, &bvh->node[here]);
         count += waiting[count].children != 0;
         if (count == 0 || w->left == 0) {
             return 1;
@@ -258,7 +246,7 @@ static int trace_together(traversal *w, uint32_t limit)
         if (w->kept->asked - before > limit || traversal_is_over(w->kept)) {
             return 0;
         }
-        branch *up = &waiting[count - 1];
+        tile_branch *up = &waiting[count - 1];
         here = bvh->node[up->node].first[LMB_BOXES - 1 - lowest_bit(up->children)];
         up->children &= up->children - 1;
         count -= up->children == 0;
@@ -273,11 +261,11 @@ typedef struct ray {
 
 static void ray_axis(lmb_segment *out, float *per, int axis, float d)
 {
-    enum { HIGH = (int)(offsetof(lmb_boxes, high) / sizeof(float)) };
+    enum { HIGH_OFFSET = (int)(offsetof(lmb_boxes, high) / sizeof(float)) };
     const int back = d < 0.0f;
-    *per = 1.0f / (absf(d) < THIN ? back ? -THIN : THIN : d);
-    out->enter[axis] = axis * LMB_BOXES + (back ? HIGH : 0);
-    out->leave[axis] = axis * LMB_BOXES + (back ? 0 : HIGH);
+    *per = 1.0f / (absf(d) < MIN_PYRAMID_M ? back ? -MIN_PYRAMID_M : MIN_PYRAMID_M : d);
+    out->enter[axis] = axis * LMB_BOXES + (back ? HIGH_OFFSET : 0);
+    out->leave[axis] = axis * LMB_BOXES + (back ? 0 : HIGH_OFFSET);
 }
 
 static ray ray_of(const lmb_tile *tile, int k, lmb_vec3 at)
@@ -300,7 +288,7 @@ static int crosses(const lmb_cross_job *job, lmb_vec3 d)
 
 /* 1 if a triangle blocks this one pixel, at d from the point. Bit by bit the result of `crossed`, with the cheapest
  * test first: the plane of a reversed edge is exactly negated. */
-static int blocks_one(traversal *w, uint32_t triangle, lmb_vec3 d)
+static int blocks_one(tile_traversal *w, uint32_t triangle, lmb_vec3 d)
 {
     const lmb_bvh_triangle *t = &w->b->triangle[triangle];
     const lmb_vec3 *p = t->corner;
@@ -312,15 +300,15 @@ static int blocks_one(traversal *w, uint32_t triangle, lmb_vec3 d)
                crosses(&job, d) &&
                (!(t->id & LMB_BVH_MASKED) || test_holes(w, t, &job, w->left) != 0);
     }
-    return absf(ahead) < past && 0.0f <= side * dot3(edge_plane(b, c, sub3(p[2], p[1])), d) &&
-           0.0f <= side * dot3(edge_plane(c, a, sub3(p[0], p[2])), d) &&
-           0.0f <= side * dot3(edge_plane(a, b, sub3(p[1], p[0])), d) &&
+    return absf(ahead) < past && 0.0f <= side * dot3(edge_plane_towards(b, c, sub3(p[2], p[1])), d) &&
+           0.0f <= side * dot3(edge_plane_towards(c, a, sub3(p[0], p[2])), d) &&
+           0.0f <= side * dot3(edge_plane_towards(a, b, sub3(p[1], p[0])), d) &&
            cross_job(&job, t, w->at, w->noise, w->b->noise, w->kept) && job.beyond < past &&
            (!(t->id & LMB_BVH_MASKED) || test_holes(w, t, &job, w->left) != 0);
 }
 
 /* Tests the leaves of a node that the segment meets. Returns 1 if one blocks. *children: boxes that are nodes. */
-static int node_blocks_one(uint32_t *children, traversal *w, const lmb_boxes *node, const ray *r)
+static int node_blocks_one(uint32_t *children, tile_traversal *w, const lmb_boxes *node, const ray *r)
 {
     *children = 0;
     ++w->kept->asked;
@@ -344,9 +332,9 @@ static int node_blocks_one(uint32_t *children, traversal *w, const lmb_boxes *no
     return 0;
 }
 
-static int one_blocked(traversal *w, int k)
+static int one_blocked(tile_traversal *w, int k)
 {
-    branch waiting[LMB_TRAVERSAL_LEVELS];
+    tile_branch waiting[LMB_TRAVERSAL_LEVELS];
     int count = 0;
     uint32_t here = 0;
     const ray r = ray_of(w->tile, k, w->at);
@@ -359,7 +347,7 @@ static int one_blocked(traversal *w, int k)
         if (count == 0 || traversal_is_over(w->kept)) {
             return 0;
         }
-        branch *up = &waiting[count - 1];
+        tile_branch *up = &waiting[count - 1];
         here = w->b->node[up->node].first[LMB_BOXES - 1 - lowest_bit(up->children)];
         up->children &= up->children - 1;
         count -= up->children == 0;
@@ -367,40 +355,40 @@ static int one_blocked(traversal *w, int k)
 }
 
 /* Tests the triangle that blocked each pixel last. */
-static void test_own(traversal *w)
+static void test_own(tile_traversal *w)
 {
     uint64_t seen = w->left;
     for (uint64_t bits = w->own != NULL ? seen : 0; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
         const lmb_vec3 d = sub3(tile_vec(w->tile->position, k), w->at);
         w->left = bits & (~bits + 1);
-        seen &= ~(w->own[k] != 0 && blocks_one(w, w->own[k] - 1, d) ? w->left : 0);
+        seen &= ~(w->own[k] != 0 && w->own[k] <= w->b->triangle_count && blocks_one(w, w->own[k] - 1, d) ? w->left : 0);
     }
     w->left = seen;
 }
 
-static uint64_t trace(traversal *w)
+static uint64_t trace(tile_traversal *w)
 {
     lmb_traversal *kept = w->kept;
     const uint64_t pixels = w->left;
     uint64_t occluded = 0;
     test_own(w);
     if (kept->first != 0) {
-        test_triangle(w, kept->first - 1, pixels);
+        test_blocking_triangle(w, kept->first - 1, pixels);
     }
     if (w->left == 0) {
         return pixels;
     }
-    if (count_bits_64(w->left) > FEW) {
+    if (count_bits_64(w->left) > MAX_SINGLE_PIXELS) {
         if (test_last(w)) {
             return pixels;
         }
         if (kept->alone > 0) {
             --kept->alone;
-        } else if (trace_together(w, WIDE * (uint32_t)count_bits_64(pixels))) {
+        } else if (trace_together(w, MAX_BOXES_A_PIXEL * (uint32_t)count_bits_64(pixels))) {
             return pixels & ~w->left;
         } else {
-            kept->alone = ALONE;
+            kept->alone = SINGLE_POINTS;
         }
     }
     occluded = pixels & ~w->left;
@@ -419,9 +407,9 @@ static uint64_t trace(traversal *w)
         occluded |= now & ~w->left;
         bits &= ~now;
         boxes = kept->asked - before;
-        if (w->left == 0 && bits != 0 && misses < MISSES) { /* a triangle that blocks one pixel often blocks more */
+        if (w->left == 0 && bits != 0 && misses < MAX_MISSES) { /* a triangle that blocks one pixel often blocks more */
             w->left = bits;
-            test_triangle(w, kept->blocker - 1, bits);
+            test_blocking_triangle(w, kept->blocker - 1, bits);
             misses += w->left == bits;
             occluded |= bits & ~w->left;
             bits = w->left;
@@ -436,10 +424,10 @@ uint64_t lmb_occluded_tile(const lmb_kernels *kernels, lmb_traversal *kept, cons
     return lmb_occluded_again(kernels, kept, NULL, bvh, tile, pixels, at, noise);
 }
 
-uint64_t lmb_occluded_again(const lmb_kernels *kernels, lmb_traversal *kept, uint32_t *own, const lmb_bvh *bvh,
-                            const lmb_tile *tile, uint64_t pixels, lmb_vec3 at, float noise)
+uint64_t lmb_occluded_again(const lmb_kernels *kernels, lmb_traversal *kept, uint32_t own[LMB_TILE_PIXELS],
+                            const lmb_bvh *bvh, const lmb_tile *tile, uint64_t pixels, lmb_vec3 at, float noise)
 {
-    traversal w = {bvh, kernels, tile, at, noise, kept, pixels, own};
+    tile_traversal w = {bvh, kernels, tile, at, noise, kept, pixels, own};
     if (bvh == NULL || kernels == NULL || tile == NULL || kept == NULL || pixels == 0 || bvh->node_count == 0) {
         return 0;
     }

@@ -9,13 +9,8 @@
 
 #if LMB_TREES
 
-#define MUCH  16             /* a triangle that blocks this many pixels is tested first for the next rays */
-#define FEW   7              /* up to this many pixels are traced one by one, as in occluded.c */
-#define WIDE  8u             /* boxes per pixel after which a sweep is abandoned: single pixels meet fewer */
-#define ALONE 15u            /* number of following directions traced pixel by pixel after an abandoned sweep */
-#define MISSES 2             /* after this many triangles that block only one pixel, none is retried for the others */
-#define ALONG 9.5367432e-7f  /* 2^-20: below this cosine rays are parallel to a triangle, which then blocks none */
-#define THIN  1e-20f
+/* 2^-20: below this cosine rays are parallel to a triangle, which then blocks none */
+#define MIN_RAY_SLOPE 9.5367432e-7f
 #define TRIANGLE_NOISE 0x1p-21f /* of the distance to the corners */
 
 typedef struct sun_traversal {
@@ -30,7 +25,7 @@ typedef struct sun_traversal {
 } sun_traversal;
 
 /* 2^-22 of the coordinates and 2^-20 of the length of the ray that found them. */
-static float noise_of(const lmb_tile *tile, uint64_t pixels)
+static float noise_of_pixels(const lmb_tile *tile, uint64_t pixels)
 {
     float noise = 0.0f;
     for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
@@ -49,7 +44,7 @@ static int sun_job(lmb_sun_job *out, const sun_traversal *w, const lmb_bvh_trian
     const lmb_vec3 a = sub3(t->corner[0], w->at), b = sub3(t->corner[1], w->at), c = sub3(t->corner[2], w->at);
     const float far2 = dot3(a, a) + dot3(b, b) + dot3(c, c);
     const float along = dot3(t->normal, w->to), side = along < 0.0f ? -1.0f : 1.0f;
-    if (!(absf(along) > ALONG)) {
+    if (!(absf(along) > MIN_RAY_SLOPE)) {
         return 0;
     }
     out->at = w->at;
@@ -110,7 +105,7 @@ static int sun_blocks_one(const sun_traversal *w, const lmb_bvh_triangle *t, uin
         }
         return inside && (!(t->id & LMB_BVH_MASKED) || sun_standing(w, t, &job, pixel) != 0);
     }
-    return absf(along) > ALONG &&
+    return absf(along) > MIN_RAY_SLOPE &&
            dot3(mul3(cross3(w->to, sub3(c, b)), side), d) + side * dot3(cross3(b, c), w->to) >= 0.0f &&
            dot3(mul3(cross3(w->to, sub3(a, c)), side), d) + side * dot3(cross3(c, a), w->to) >= 0.0f &&
            dot3(mul3(cross3(w->to, sub3(b, a)), side), d) + side * dot3(cross3(a, b), w->to) >= 0.0f &&
@@ -118,7 +113,7 @@ static int sun_blocks_one(const sun_traversal *w, const lmb_bvh_triangle *t, uin
            (!(t->id & LMB_BVH_MASKED) || sun_standing(w, t, &job, pixel) != 0);
 }
 
-static void test_triangle(sun_traversal *w, uint32_t triangle)
+static void test_sun_triangle(sun_traversal *w, uint32_t triangle)
 {
     const lmb_bvh_triangle *t = &w->b->triangle[triangle];
     lmb_sun_job job;
@@ -134,7 +129,7 @@ static void test_triangle(sun_traversal *w, uint32_t triangle)
 static void test_kept(sun_traversal *w)
 {
     for (int i = 0; i < LMB_LAST_OCCLUDERS && w->kept->last[i] != 0 && w->left != 0; ++i) {
-        test_triangle(w, w->kept->last[i] - 1);
+        test_sun_triangle(w, w->kept->last[i] - 1);
     }
 }
 
@@ -143,9 +138,9 @@ static void test_box(sun_traversal *w, const lmb_boxes *node, int i)
     for (uint32_t k = 0; k < node->count[i] && w->left != 0 && !traversal_is_over(w->kept); ++k) {
         const uint64_t before = w->left;
         ++w->kept->spent;
-        test_triangle(w, node->first[i] + k);
+        test_sun_triangle(w, node->first[i] + k);
         w->blocker = before != w->left ? node->first[i] + k + 1 : w->blocker;
-        if (count_bits_64(before & ~w->left) >= MUCH) {
+        if (count_bits_64(before & ~w->left) >= MIN_BLOCKED_PIXELS) {
             for (int last = LMB_LAST_OCCLUDERS - 1; last > 0; --last) {
                 w->kept->last[last] = w->kept->last[last - 1];
             }
@@ -161,7 +156,7 @@ static lmb_sun_sweep sweep_of(const sun_traversal *w)
     lmb_sun_sweep s;
     tile_box(&low, &high, w->tile, w->left);
     for (int c = 0; c < 3; ++c) {
-        s.per[c] = 1.0f / (absf(d[c]) < THIN ? THIN : d[c]);
+        s.per[c] = 1.0f / (absf(d[c]) < MIN_PYRAMID_M ? MIN_PYRAMID_M : d[c]);
     }
     s.low[0] = low.x;
     s.low[1] = low.y;
@@ -228,7 +223,7 @@ static uint64_t without_blocked(sun_traversal *w, uint64_t bits)
 {
     w->left = bits;
     if (bits != 0) {
-        test_triangle(w, w->blocker - 1);
+        test_sun_triangle(w, w->blocker - 1);
     }
     return w->left;
 }
@@ -238,13 +233,13 @@ static void sun_trace(sun_traversal *w)
 {
     const uint64_t pixels = w->left;
     uint64_t open = 0;
-    if (count_bits_64(pixels) > FEW) {
+    if (count_bits_64(pixels) > MAX_SINGLE_PIXELS) {
         if (w->kept->alone > 0) {
             --w->kept->alone;
-        } else if (sun_descend(w, WIDE * (uint32_t)count_bits_64(pixels))) {
+        } else if (sun_descend(w, MAX_BOXES_A_PIXEL * (uint32_t)count_bits_64(pixels))) {
             return;
         } else {
-            w->kept->alone = ALONE;
+            w->kept->alone = SINGLE_POINTS;
         }
     }
     uint32_t boxes = 0;
@@ -257,7 +252,7 @@ static void sun_trace(sun_traversal *w)
         (void)sun_descend(w, ~0u);
         open |= w->left;
         boxes = w->kept->asked - before;
-        if (w->left == 0 && misses < MISSES) {
+        if (w->left == 0 && misses < MAX_MISSES) {
             const uint64_t others = bits;
             bits = without_blocked(w, bits);
             misses += bits == others;
@@ -274,8 +269,9 @@ uint64_t lmb_occluded_sun(const lmb_kernels *kernels, lmb_traversal *kept, const
     }
     const uint32_t before = kept->spent;
     const uint64_t asked = traversal_begin(kept, pixels);
-    sun_traversal w = {bvh, kernels, tile, tile_vec(tile->position, lowest_bit_64(asked)), to, kept,
-                       noise_of(tile, asked), asked, 0};
+    sun_traversal w = {
+        bvh,   kernels, tile, tile_vec(tile->position, lowest_bit_64(asked)), to, kept, noise_of_pixels(tile, asked),
+        asked, 0};
     test_kept(&w);
     if (w.left != 0) {
         sun_trace(&w);

@@ -29,16 +29,22 @@
 int lmb_occluded_from(const lmb_bvh *bvh, const lmb_kernels *kernels, const lmb_tile *tile, uint64_t pixels,
                       const lmb_vec3 *at, int count, float noise, uint32_t triangle);
 
-/* As lmb_occluded_tile, and first tests own[k] for pixel k: the triangle that blocked it last, as in lmb_traversal. For
- * pixels that lie far apart, in calls whose points lie close together. own: 64 numbers, updated; begin with 0. */
-uint64_t lmb_occluded_again(const lmb_kernels *kernels, lmb_traversal *traversal, uint32_t *own, const lmb_bvh *bvh,
-                            const lmb_tile *tile, uint64_t pixels, lmb_vec3 at, float noise);
-
 /* A single pixel meets this many boxes only if most of them overlap, as for long slivers or for a mesh far from the
  * origin. The pixels after it are then traced together, so that each triangle is tested once for all of them. */
 #define LMB_MANY_BOXES 256u
 
 #define LMB_TRAVERSAL_MOST 0x10000000 /* maximum of `left`, so that no sum overflows */
+
+/* How pixels are traced: together through a pyramid of all segments (occluded.c) or a sweep of all rays (sun.c), or one
+ * by one. */
+enum {
+    MAX_SINGLE_PIXELS = 7,   /* up to this many are traced one by one: in foliage they lie far apart */
+    MIN_BLOCKED_PIXELS = 16, /* a triangle that blocks this many is tested first for the next segments or rays */
+    MAX_MISSES = 2           /* after this many triangles that block only one pixel, none is retried for the others */
+};
+#define MAX_BOXES_A_PIXEL 8u     /* at which a pyramid or sweep is abandoned: single pixels meet fewer */
+#define SINGLE_POINTS     15u    /* number of following points or directions traced pixel by pixel after that */
+#define MIN_PYRAMID_M     1e-20f /* width of a pyramid or sweep */
 
 /* Begins a call. Returns the pixels to test. */
 static inline uint64_t traversal_begin(lmb_traversal *t, uint64_t pixels)

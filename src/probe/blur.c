@@ -13,7 +13,7 @@
 
 #if LMB_PROBES
 
-enum { TURNS = 24 };
+enum { CIRCLE_STEPS = 24 };
 
 /* --- kernels ------------------------------------------------------------------------------------------------------ */
 
@@ -34,12 +34,12 @@ static float *column_of(const lmb_probe_blur *b, int32_t term, int32_t row)
     return b->column + (size_t)(term * b->height + row) * (size_t)(2 * b->height);
 }
 
-static float *row_of(const lmb_probe_blur *b, int32_t term, int32_t row)
+static float *row_of_term(const lmb_probe_blur *b, int32_t term, int32_t row)
 {
     return b->row + (size_t)(term * b->height + row) * (size_t)b->width;
 }
 
-static float sum_of(const float *v, int32_t n)
+static float sum_of_weights(const float *v, int32_t n)
 {
     float sum = 0.0f;
     for (int32_t i = 0; i < n; ++i) {
@@ -55,7 +55,7 @@ static float lag_cos(int32_t i, int32_t n) { return 4 * i < n ? lmb_cos(2.0f * L
 static void set_source(lmb_probe_blur *b, int32_t row)
 {
     const int32_t h = b->height, w = b->width;
-    float *column = column_of(b, 0, row), *along = row_of(b, 0, row);
+    float *column = column_of(b, 0, row), *along = row_of_term(b, 0, row);
     memset(column, 0, 2 * (size_t)h * sizeof *column);
     for (int32_t y = row - h / 2; y <= row + h / 2; ++y) {
         const int32_t real = y < 0 ? -1 - y : y >= h ? 2 * h - 1 - y : y;
@@ -64,7 +64,7 @@ static void set_source(lmb_probe_blur *b, int32_t row)
     for (int32_t x = 0; x < w; ++x) {
         along[x] = lag_cos(mini(x, w - x), w);
     }
-    const float scale = LMB_PI / (sum_of(column, 2 * h) * sum_of(along, w));
+    const float scale = LMB_PI / (sum_of_weights(column, 2 * h) * sum_of_weights(along, w));
     for (int32_t x = 0; x < w; ++x) {
         along[x] *= scale;
     }
@@ -89,7 +89,7 @@ static float wanted(const fit *f, int32_t y, float lag, int32_t x)
     const float round = sqrtf(1.0f - up * up) * sqrtf(1.0f - at * at);
     float v = maxf(up * at + round * lag, 0.0f) * sqrtf(f->table->area[y]);
     for (int32_t term = 0; term < f->term; ++term) {
-        v -= column_of(f->blur, term, f->row)[y] * row_of(f->blur, term, f->row)[x];
+        v -= column_of(f->blur, term, f->row)[y] * row_of_term(f->blur, term, f->row)[x];
     }
     return v;
 }
@@ -98,7 +98,7 @@ static float wanted(const fit *f, int32_t y, float lag, int32_t x)
 static void fit_turn(const fit *f, int of_columns)
 {
     const int32_t w = f->blur->width, h = f->blur->height;
-    float *column = column_of(f->blur, f->term, f->row), *along = row_of(f->blur, f->term, f->row);
+    float *column = column_of(f->blur, f->term, f->row), *along = row_of_term(f->blur, f->term, f->row);
     float *to = of_columns ? column : along;
     const float *from = of_columns ? along : column;
     float norm = 1e-20f;
@@ -119,12 +119,12 @@ static void set_fitted(lmb_probe_blur *b, const lmb_probe_table *t, int32_t row)
     float whole = 0.0f;
     for (int32_t term = 0; term < b->terms; ++term) {
         const fit f = {b, t, row, term};
-        float *along = row_of(b, term, row);
+        float *along = row_of_term(b, term, row);
         for (int32_t x = 0; x < b->width; ++x) {
             along[x] = 1.0f + lmb_cos((float)(term + 1) * 2.0f * LMB_PI * ((float)x / (float)b->width));
         }
         memset(column_of(b, term, row), 0, 2 * (size_t)b->height * sizeof(float));
-        for (int32_t i = 0; i < TURNS; ++i) {
+        for (int32_t i = 0; i < CIRCLE_STEPS; ++i) {
             fit_turn(&f, 1);
             fit_turn(&f, 0);
         }
@@ -134,10 +134,10 @@ static void set_fitted(lmb_probe_blur *b, const lmb_probe_table *t, int32_t row)
         for (int32_t y = 0; y < b->height; ++y) {
             column[y] *= sqrtf(t->area[y]);
         }
-        whole += sum_of(column, b->height) * sum_of(row_of(b, term, row), b->width);
+        whole += sum_of_weights(column, b->height) * sum_of_weights(row_of_term(b, term, row), b->width);
     }
     for (int32_t i = 0; i < b->terms * b->width; ++i) {
-        row_of(b, i / b->width, row)[i % b->width] *= LMB_PI / whole;
+        row_of_term(b, i / b->width, row)[i % b->width] *= LMB_PI / whole;
     }
 }
 
@@ -186,7 +186,7 @@ static void blur_plane(float *out, float *line, const lmb_kernels *kernels, cons
         job.height = blur->height;
         job.over = blur->terms == 0;
         job.column = column_of(blur, term, row);
-        job.row = row_of(blur, term, row);
+        job.row = row_of_term(blur, term, row);
         kernels->blur(out + (size_t)row * width, line, &job);
     }
 }

@@ -77,7 +77,7 @@ static int is_stale(const lmb_probe_cache *c, const lmb_probe_slot *s, lmb_vec3 
             (moved > 0.0f && c->policy.every > 0 && frame - s->frame >= (uint32_t)c->policy.every));
 }
 
-static void take(lmb_probe_slot *s, uint32_t owner)
+static void claim_slot(lmb_probe_slot *s, uint32_t owner)
 {
     memset(s, 0, sizeof *s);
     s->kind = LMB_PROBE_OWNED;
@@ -93,7 +93,7 @@ lmb_status lmb_probe_cache_ask(lmb_probe_answer *out, lmb_probe_cache *inout, ui
     const int32_t named = find_named(inout, at), i = named >= 0 ? named : find_owned(inout, owner, frame);
     lmb_probe_slot *s = &inout->slot[i];
     if (named < 0 && (s->kind != LMB_PROBE_OWNED || s->owner != owner)) {
-        take(s, owner);
+        claim_slot(s, owner);
     }
     out->slot = i;
     out->compute = is_stale(inout, s, at, world_revision, frame);

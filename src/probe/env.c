@@ -18,12 +18,15 @@ static int32_t level_count(int32_t size)
     return levels;
 }
 
-static int is_size(int32_t size) { return size >= 1 && size <= 1 << (LMB_ENV_LEVELS - 1) && (size & (size - 1)) == 0; }
+static int is_env_size(int32_t size)
+{
+    return size >= 1 && size <= 1 << (LMB_ENV_LEVELS - 1) && (size & (size - 1)) == 0;
+}
 
 size_t lmb_env_bytes(int32_t size)
 {
     size_t texels = 0;
-    if (!is_size(size)) {
+    if (!is_env_size(size)) {
         return 0;
     }
     for (int32_t n = size; n > 0; n /= 2) {
@@ -62,12 +65,13 @@ static uint16_t *texel(const lmb_env *env, int32_t level, cube_place p)
     return env->texels + 4 * (env->at[level] + (size_t)((p.face * n + p.y) * n + p.x));
 }
 
-static int is_env(const lmb_env *env) { return env != NULL && env->texels != NULL && is_size(env->size); }
+static int is_env_valid(const lmb_env *env) { return env != NULL && env->texels != NULL && is_env_size(env->size); }
 
 void lmb_env_set(const lmb_env *env, int32_t face, int32_t x, int32_t y, const float rgb[3])
 {
     const cube_place p = {face, x, y};
-    if (!is_env(env) || rgb == NULL || face < 0 || face > 5 || x < 0 || y < 0 || x >= env->size || y >= env->size) {
+    if (!is_env_valid(env) || rgb == NULL || face < 0 || face > 5 || x < 0 || y < 0 || x >= env->size ||
+        y >= env->size) {
         return;
     }
     uint16_t *to = texel(env, 0, p);
@@ -77,7 +81,7 @@ void lmb_env_set(const lmb_env *env, int32_t face, int32_t x, int32_t y, const f
     to[3] = HALF_ONE;
 }
 
-static void halve(const lmb_env *env, int32_t level, cube_place p)
+static void halve_texel(const lmb_env *env, int32_t level, cube_place p)
 {
     uint16_t *to = texel(env, level, p);
     for (int c = 0; c < 4; ++c) {
@@ -92,18 +96,18 @@ static void halve(const lmb_env *env, int32_t level, cube_place p)
 
 void lmb_env_mips(const lmb_env *env)
 {
-    for (int32_t l = 1; is_env(env) && l < env->levels; ++l) {
+    for (int32_t l = 1; is_env_valid(env) && l < env->levels; ++l) {
         const int32_t n = env->size >> l;
         for (int32_t i = 0; i < 6 * n * n; ++i) {
             const cube_place p = {i / (n * n), i % n, i / n % n};
-            halve(env, l, p);
+            halve_texel(env, l, p);
         }
     }
 }
 
 void lmb_env_dim(const lmb_env *out, const lmb_env *from, const float share[3])
 {
-    const int is_pair = is_env(out) && is_env(from) && share != NULL && out->size == from->size;
+    const int is_pair = is_env_valid(out) && is_env_valid(from) && share != NULL && out->size == from->size;
     const size_t texels = is_pair ? lmb_env_bytes(from->size) / (4 * sizeof(uint16_t)) : 0;
     for (size_t i = 0; i < 4 * texels; ++i) {
         out->texels[i] = i % 4 == 3 ? HALF_ONE : half_encode(half_decode(from->texels[i]) * share[i % 4]);
@@ -112,7 +116,7 @@ void lmb_env_dim(const lmb_env *out, const lmb_env *from, const float share[3])
 
 /* --- cone lookups ------------------------------------------------------------------------------------------------- */
 
-static void add_texel(float out[3], const lmb_env *env, int32_t level, cube_place p, float weight)
+static void add_env_texel(float out[3], const lmb_env *env, int32_t level, cube_place p, float weight)
 {
     const int32_t n = env->size >> level;
     const int inside = p.x >= 0 && p.y >= 0 && p.x < n && p.y < n;
@@ -137,7 +141,7 @@ static void sample_level(float out[3], const lmb_env *env, int32_t level, lmb_ve
         const int32_t i = k & 1, j = k >> 1;
         const cube_place p = {face, (int32_t)x0 + i, (int32_t)y0 + j};
         const float wx = i ? x - x0 : 1.0f - (x - x0), wy = j ? y - y0 : 1.0f - (y - y0);
-        add_texel(out, env, level, p, weight * (wx * wy));
+        add_env_texel(out, env, level, p, weight * (wx * wy));
     }
 }
 
@@ -150,7 +154,7 @@ void lmb_env_sample(float out[3], const lmb_env *env, lmb_vec3 direction, float 
         return;
     }
     out[0] = out[1] = out[2] = 0.0f;
-    if (!is_env(env)) {
+    if (!is_env_valid(env)) {
         return;
     }
     float width = tan_half > 0.0f ? tan_half * (float)env->size : 0.0f;

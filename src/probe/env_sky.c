@@ -9,9 +9,7 @@
 
 #if LMB_TREES
 
-#define PI 3.14159265f
-
-static int is_env(const lmb_env *env) { return env != NULL && env->texels != NULL && env->size > 0; }
+static int is_sky_env(const lmb_env *env) { return env != NULL && env->texels != NULL && env->size > 0; }
 
 static uint32_t texels_of(const lmb_env *env, int32_t level)
 {
@@ -19,22 +17,22 @@ static uint32_t texels_of(const lmb_env *env, int32_t level)
     return 6 * n * n;
 }
 
-static cube_place place_of(uint32_t i, int32_t n)
+static cube_place texel_place(uint32_t i, int32_t n)
 {
     const cube_place p = {(int32_t)i / (n * n), (int32_t)i % n, (int32_t)i / n % n};
     return p;
 }
 
-static lmb_vec3 direction_of(cube_place p, int32_t n) { return cube_direction(p.face, p.x, p.y, n); }
+static lmb_vec3 direction_of_texel(cube_place p, int32_t n) { return cube_direction(p.face, p.x, p.y, n); }
 
 /* sr, of a texel of faces with n x n: area on the cube over the cube of the distance. */
-static float solid_angle(cube_place p, int32_t n)
+static float solid_angle_of_place(cube_place p, int32_t n)
 {
     const float s = cube_coordinate(p.x, n), t = cube_coordinate(p.y, n), d2 = 1.0f + s * s + t * t;
     return 4.0f / ((float)n * (float)n) / (d2 * sqrtf(d2));
 }
 
-static void read_texel(float rgb[3], const lmb_env *env, int32_t level, uint32_t i)
+static void read_env_texel(float rgb[3], const lmb_env *env, int32_t level, uint32_t i)
 {
     const uint16_t *texel = env->texels + 4 * (env->at[level] + (size_t)i);
     rgb[0] = half_decode(texel[0]);
@@ -106,7 +104,7 @@ static sky sky_of(lmb_vec3 to_sun, float t)
     }
     s.to_sun = d;
     const float angle = lmb_acos(d.y);
-    const float chi = (4.0f / 9.0f - t / 120.0f) * (PI - 2.0f * angle);
+    const float chi = (4.0f / 9.0f - t / 120.0f) * (LMB_PI - 2.0f * angle);
     const float bright = (4.0453f * t - 4.9710f) * lmb_tan(chi) - 0.2155f * t + 2.4192f;
     s.luminance = perez_of(luminance, t, maxf(bright, 0.0f), d.y);
     s.x = perez_of(x, t, zenith_of(zenith_x, t, angle), d.y);
@@ -131,15 +129,15 @@ static void sky_at(float rgb[3], const sky *s, lmb_vec3 d, float scale)
 
 lmb_status lmb_env_sky(const lmb_env *env, lmb_vec3 to_sun, float turbidity, float scale, const float ground[3])
 {
-    if (!is_env(env) || ground == NULL || !(dot3(to_sun, to_sun) > 0.0f && dot3(to_sun, to_sun) < 1e30f) ||
+    if (!is_sky_env(env) || ground == NULL || !(dot3(to_sun, to_sun) > 0.0f && dot3(to_sun, to_sun) < 1e30f) ||
         !(scale >= 0.0f)) {
         return LMB_ERR_ARG;
     }
     const sky s = sky_of(to_sun, turbidity > 2.0f ? minf(turbidity, 10.0f) : 2.0f);
     for (uint32_t i = 0; i < texels_of(env, 0); ++i) {
         float rgb[3];
-        const cube_place p = place_of(i, env->size);
-        const lmb_vec3 d = direction_of(p, env->size);
+        const cube_place p = texel_place(i, env->size);
+        const lmb_vec3 d = direction_of_texel(p, env->size);
         if (d.y > 0.0f) {
             sky_at(rgb, &s, d, scale);
         } else {
@@ -159,15 +157,15 @@ lmb_status lmb_env_sky(const lmb_env *env, lmb_vec3 to_sun, float turbidity, flo
 static float sum3(const float v[3]) { return v[0] + v[1] + v[2]; }
 
 /* The brightest texel of level 0, and the sum of radiance x solid angle. */
-static uint32_t brightest(float *all, const lmb_env *env)
+static uint32_t sort_brightest(float *all, const lmb_env *env)
 {
     uint32_t best = 0;
     float highest = 0.0f;
     double sum = 0.0;
     for (uint32_t i = 0; i < texels_of(env, 0); ++i) {
         float rgb[3];
-        read_texel(rgb, env, 0, i);
-        sum += (double)(sum3(rgb) * solid_angle(place_of(i, env->size), env->size));
+        read_env_texel(rgb, env, 0, i);
+        sum += (double)(sum3(rgb) * solid_angle_of_place(texel_place(i, env->size), env->size));
         if (sum3(rgb) > highest) {
             highest = sum3(rgb);
             best = i;
@@ -189,10 +187,10 @@ static void gather_sun(lmb_light *out, const lmb_env *env, lmb_vec3 middle, floa
 {
     for (uint32_t i = 0; i < texels_of(env, 0); ++i) {
         float rgb[3];
-        const cube_place p = place_of(i, env->size);
-        const lmb_vec3 d = direction_of(p, env->size);
-        read_texel(rgb, env, 0, i);
-        const float share = share_over(rgb, limit), angle = solid_angle(p, env->size);
+        const cube_place p = texel_place(i, env->size);
+        const lmb_vec3 d = direction_of_texel(p, env->size);
+        read_env_texel(rgb, env, 0, i);
+        const float share = share_over(rgb, limit), angle = solid_angle_of_place(p, env->size);
         if (share == 0.0f || dot3(d, middle) < SUN_COSINE) {
             continue;
         }
@@ -221,11 +219,11 @@ static lmb_light sun_of(const lmb_env *env, lmb_vec3 middle, float limit, int ta
 int lmb_env_take_sun(lmb_light *out, const lmb_env *env)
 {
     float all;
-    if (out == NULL || !is_env(env)) {
+    if (out == NULL || !is_sky_env(env)) {
         return 0;
     }
-    const lmb_vec3 middle = direction_of(place_of(brightest(&all, env), env->size), env->size);
-    const float limit = SUN_OVER * all / (4.0f * PI);
+    const lmb_vec3 middle = direction_of_texel(texel_place(sort_brightest(&all, env), env->size), env->size);
+    const float limit = SUN_OVER * all / (4.0f * LMB_PI);
     const lmb_light sun = sun_of(env, middle, limit, 0);
     if (!(sum3(sun.intensity) >= SUN_SHARE * all) || !(all > 0.0f)) {
         return 0;
@@ -237,14 +235,14 @@ int lmb_env_take_sun(lmb_light *out, const lmb_env *env)
 uint32_t lmb_env_lights(lmb_light *out, uint32_t cap, const lmb_env *env, int32_t level)
 {
     uint32_t count = 0;
-    if (out == NULL || !is_env(env) || level < 0 || level >= env->levels) {
+    if (out == NULL || !is_sky_env(env) || level < 0 || level >= env->levels) {
         return 0;
     }
     const int32_t n = env->size >> level;
     for (uint32_t i = 0; i < texels_of(env, level); ++i) {
         lmb_light l;
         memset(&l, 0, sizeof l);
-        read_texel(l.intensity, env, level, i);
+        read_env_texel(l.intensity, env, level, i);
         if (sum3(l.intensity) == 0.0f) {
             continue;
         }
@@ -253,9 +251,9 @@ uint32_t lmb_env_lights(lmb_light *out, uint32_t cap, const lmb_env *env, int32_
         }
         l.kind = LMB_LIGHT_DIRECTIONAL;
         l.cos_inner = l.cos_outer = 1.0f;
-        l.direction = mul3(direction_of(place_of(i, n), n), -1.0f);
+        l.direction = mul3(direction_of_texel(texel_place(i, n), n), -1.0f);
         for (int c = 0; c < 3; ++c) {
-            l.intensity[c] *= solid_angle(place_of(i, n), n);
+            l.intensity[c] *= solid_angle_of_place(texel_place(i, n), n);
         }
         out[count++] = l;
     }

@@ -7,7 +7,7 @@
 #if LMB_PROBES
 
 /* Adds the share of each border texel to the interior texel in the same direction. */
-static void fold(lmb_probe_lights *inout, const lmb_probe_table *table)
+static void fold_bright_texels(lmb_probe_lights *inout, const lmb_probe_table *table)
 {
     memset(inout->rgbw, 0, sizeof inout->rgbw);
     for (int32_t i = 0; i < LMB_PROBE_BORDERED; ++i) {
@@ -20,7 +20,7 @@ static void fold(lmb_probe_lights *inout, const lmb_probe_table *table)
 /* --- peaks -------------------------------------------------------------------------------------------------------- */
 
 /* Two by two texels with this many times the mean light become a separate light. */
-static const float stands_out = 4.0f;
+static const float min_light_contrast = 4.0f;
 
 /* The strongest peaks, unsorted. */
 typedef struct strongest {
@@ -29,7 +29,7 @@ typedef struct strongest {
 } strongest;
 
 /* Keeps a peak; if the list is full, the weakest is dropped. */
-static void keep(strongest *inout, int32_t x, int32_t y, float light)
+static void keep_strongest(strongest *inout, int32_t x, int32_t y, float light)
 {
     int32_t at = 0;
     if (inout->count < LMB_PROBE_PEAKS) {
@@ -59,7 +59,7 @@ static void find_strongest(strongest *out, const float *map, const lmb_probe_tab
                                 t->area[y + 1] * (red[under] + red[under + 1] + (green[under] + green[under + 1]) +
                                                   (blue[under] + blue[under + 1]));
             if (light > limit) {
-                keep(out, x, y, light);
+                keep_strongest(out, x, y, light);
             }
         }
     }
@@ -117,7 +117,7 @@ static void part_peaks(lmb_probe_lights *inout, const float *map, const lmb_prob
 {
     strongest found;
     const float mean = light_of(inout) / (float)(table->width / 2 * (table->height / 2));
-    find_strongest(&found, map, table, maxf(stands_out * mean, 1e-20f));
+    find_strongest(&found, map, table, maxf(min_light_contrast * mean, 1e-20f));
     inout->peaks = found.count;
     for (int32_t i = 0; i < found.count; ++i) {
         set_peak(inout, i, map, table, found.x[i], found.y[i]);
@@ -134,7 +134,7 @@ lmb_status lmb_probe_reduce(lmb_probe_lights *out, const lmb_kernels *kernels, c
     memset(out->shared, 0, sizeof out->shared);
     kernels->share(out->shared, map, table);
     part_peaks(out, map, table);
-    fold(out, table);
+    fold_bright_texels(out, table);
     return LMB_OK;
 }
 

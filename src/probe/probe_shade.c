@@ -17,14 +17,14 @@ size_t lmb_probe_cube_bytes(int32_t n)
     return n < 1 || n > 256 ? 0 : 6 * (size_t)(n + 2) * (size_t)(n + 2) * 4 * sizeof(float);
 }
 
-static size_t texel_at(int32_t face, int32_t x, int32_t y, int32_t n)
+static size_t index_of_texel(int32_t face, int32_t x, int32_t y, int32_t n)
 {
     return (size_t)((face * (n + 2) + y + 1) * (n + 2) + x + 1);
 }
 
 /* Copies each border texel from the interior texel in the same direction. A corner is the mean of the three texels that
  * meet there, so the three faces agree. */
-static void set_border(float (*texel)[4], int32_t n)
+static void set_cube_border(float (*texel)[4], int32_t n)
 {
     const int32_t side = n + 2, around = 4 * (n + 1);
     for (int32_t i = 0; i < 6 * around; ++i) {
@@ -33,7 +33,7 @@ static void set_border(float (*texel)[4], int32_t n)
         const int32_t y = edge == 0 ? -1 : edge == 1 ? k : edge == 2 ? n : n - 1 - k;
         const cube_place p = cube_border(face, x, y, n);
         for (int c = 0; c < 4; ++c) {
-            texel[texel_at(face, x, y, n)][c] = texel[texel_at(p.face, p.x, p.y, n)][c];
+            texel[index_of_texel(face, x, y, n)][c] = texel[index_of_texel(p.face, p.x, p.y, n)][c];
         }
     }
     for (int32_t i = 0; i < 24; ++i) {
@@ -41,8 +41,9 @@ static void set_border(float (*texel)[4], int32_t n)
         const int32_t in_x = clampi(x, 0, n - 1), in_y = clampi(y, 0, n - 1);
         for (int c = 0; c < 4; ++c) {
             texel[(face * side + y + 1) * side + x + 1][c] =
-                (texel[texel_at(face, in_x, in_y, n)][c] + texel[texel_at(face, x, in_y, n)][c] +
-                 texel[texel_at(face, in_x, y, n)][c]) * (1.0f / 3.0f);
+                (texel[index_of_texel(face, in_x, in_y, n)][c] + texel[index_of_texel(face, x, in_y, n)][c] +
+                 texel[index_of_texel(face, in_x, y, n)][c]) *
+                (1.0f / 3.0f);
         }
     }
 }
@@ -58,13 +59,13 @@ lmb_status lmb_probe_cube_init(lmb_probe_cube *out, const float *planes, int32_t
     }
     float (*texel)[4] = (float (*)[4])memory;
     for (int32_t i = 0; i < 6 * n * n; ++i) {
-        float *to = texel[texel_at(i / (n * n), i % n, i / n % n, n)];
+        float *to = texel[index_of_texel(i / (n * n), i % n, i / n % n, n)];
         to[0] = planes[i];
         to[1] = planes[6 * n * n + i];
         to[2] = planes[12 * n * n + i];
         to[3] = 1.0f;
     }
-    set_border(texel, n);
+    set_cube_border(texel, n);
     out->texel = (const float *)memory;
     out->side = n;
     return LMB_OK;
@@ -114,7 +115,7 @@ static void reflect(float out[3][LMB_TILE_PIXELS], const lmb_glossy *glossy, con
 
 /* --- facets smaller than pixels ----------------------------------------------------------------------------------- */
 
-#define FACETS (4.0f / 3.0f) /* ratio of the whole change to the facets' part */
+#define FACET_RATIO (4.0f / 3.0f) /* ratio of the whole change to the facets' part */
 
 /* Pixels with a triangle that none of the four neighbours in the tile shows. Several triangles lie in each, except in
  * some at the tile's edge. */
@@ -145,7 +146,7 @@ static void add_change(float facets[LMB_TILE_PIXELS], float all[LMB_TILE_PIXELS]
 /* A pixel with several facets shows only one of them. The reflection of all is estimated as the mean over surrounding
  * pixels: their normals are samples of the facets. The mean counts to the extent that normals jump between facets
  * instead of bending smoothly. */
-static void spread(lmb_probe_rays *rays, const lmb_tile *t, uint64_t pixels)
+static void spread_normals(lmb_probe_rays *rays, const lmb_tile *t, uint64_t pixels)
 {
     float *facets = rays->origin[0], *all = rays->origin[1]; /* reuses memory; so does `direction` */
     const uint64_t several = crowded(t, pixels);
@@ -164,7 +165,7 @@ static void spread(lmb_probe_rays *rays, const lmb_tile *t, uint64_t pixels)
     }
     for (uint64_t bits = several; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits), x = k % LMB_TILE;
-        const float part = minf(FACETS * facets[k] / maxf(all[k], 1e-12f), 1.0f);
+        const float part = minf(FACET_RATIO * facets[k] / maxf(all[k], 1e-12f), 1.0f);
         float sum[3] = {0.0f, 0.0f, 0.0f}, weights = 0.0f;
         for (int i = 0; i < 9; ++i) {
             const int at = k + LMB_TILE * (i / 3 - 1) + i % 3 - 1;
@@ -201,7 +202,7 @@ lmb_status lmb_probe_glossy_tile(lmb_glossy *inout, const lmb_kernels *kernels, 
         lmb_world_ask(&job, query->world, LMB_WORLD_ALL, query->ray_width, query->blend);
         kernels->see(scratch->seen, (float (*)[LMB_TILE_PIXELS])tile->position, scratch->direction, &job);
     }
-    spread(scratch, tile, pixels & inout->pixels);
+    spread_normals(scratch, tile, pixels & inout->pixels);
     for (uint64_t bits = pixels & inout->pixels; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
         for (int c = 0; c < 3; ++c) {

@@ -12,14 +12,14 @@
 
 #if LMB_PROBES
 
-enum { RINGS = 8, AROUND = 8, CALM_AROUND = 5, RAYS = RINGS * AROUND };
-enum { FINE = 6 }; /* rays along each side of a mirror's texel: the value is the mean over the texel, as in pictures */
+enum { RINGS = 8, RING_RAYS = 8, CALM_AROUND = 5, RAYS = RINGS * RING_RAYS };
+enum { MIRROR_RAYS_A_SIDE = 6 }; /* along each side of a mirror's texel: the value is the mean over the texel */
 
 /* Without peaks a world is smooth and needs fewer rays. A narrower lobe would show a peak, which is the light of a 32nd
  * of a face, as a speck. */
 static const float least_calm = 0.03f;
 
-/* A ray around +z: one of AROUND in a ring. */
+/* A ray around +z: one of RING_RAYS in a ring. */
 typedef struct lobe_ray {
     lmb_vec3 to;
     float weight, width; /* rad */
@@ -58,23 +58,23 @@ static void frame_of(lmb_vec3 *across, lmb_vec3 *along, lmb_vec3 n)
     *along = cross3(n, *across);
 }
 
-static void put(float (*planes)[LMB_TILE_PIXELS], int32_t k, lmb_vec3 v)
+static void put_ray(float (*planes)[LMB_TILE_PIXELS], int32_t k, lmb_vec3 v)
 {
     planes[0][k] = v.x;
     planes[1][k] = v.y;
     planes[2][k] = v.z;
 }
 
-static void set_tile(lmb_probe_rays *t, int32_t first, int32_t n, lmb_vec3 at)
+static void set_ray_tile(lmb_probe_rays *t, int32_t first, int32_t n, lmb_vec3 at)
 {
     for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
         const int32_t i = mini(first + k, 6 * n * n - 1);
         lmb_vec3 across, along;
         const lmb_vec3 d = cube_direction(i / (n * n), i % n, i / n % n, n);
         frame_of(&across, &along, d);
-        put(t->n, k, d);
-        put(t->across, k, across);
-        put(t->along, k, along);
+        put_ray(t->n, k, d);
+        put_ray(t->across, k, across);
+        put_ray(t->along, k, along);
         t->origin[0][k] = at.x;
         t->origin[1][k] = at.y;
         t->origin[2][k] = at.z;
@@ -96,9 +96,9 @@ static void point_ray(lmb_probe_rays *t, const lobe_ray *ray)
 static void point_fine(lmb_probe_rays *t, int32_t first, int32_t n, int32_t part)
 {
     for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
-        const int32_t i = mini(first + k, 6 * n * n - 1), x = FINE * (i % n) + part % FINE,
-                      y = FINE * (i / n % n) + part / FINE;
-        const lmb_vec3 d = cube_direction(i / (n * n), x, y, FINE * n);
+        const int32_t i = mini(first + k, 6 * n * n - 1), x = MIRROR_RAYS_A_SIDE * (i % n) + part % MIRROR_RAYS_A_SIDE,
+                      y = MIRROR_RAYS_A_SIDE * (i / n % n) + part / MIRROR_RAYS_A_SIDE;
+        const lmb_vec3 d = cube_direction(i / (n * n), x, y, MIRROR_RAYS_A_SIDE * n);
         t->direction[0][k] = d.x;
         t->direction[1][k] = d.y;
         t->direction[2][k] = d.z;
@@ -139,7 +139,7 @@ static void add_peaks(lmb_probe_rays *t, const lmb_world_job *job, const lmb_wor
     }
 }
 
-static void store(float *cube, const lmb_probe_rays *t, int32_t first, int32_t texels, float scale)
+static void store_cube_texels(float *cube, const lmb_probe_rays *t, int32_t first, int32_t texels, float scale)
 {
     for (int32_t k = 0; k < LMB_TILE_PIXELS && first + k < texels; ++k) {
         for (int c = 0; c < 3; ++c) {
@@ -157,15 +157,15 @@ static void mirror(float *cube, int32_t n, lmb_probe_rays *t, const lmb_kernels 
                    lmb_vec3 at)
 {
     lmb_world_job job;
-    lmb_world_ask(&job, query->world, LMB_WORLD_ALL, 0.5f * LMB_PI / (float)(FINE * n), query->blend);
+    lmb_world_ask(&job, query->world, LMB_WORLD_ALL, 0.5f * LMB_PI / (float)(MIRROR_RAYS_A_SIDE * n), query->blend);
     job.means = 1;
     for (int32_t first = 0; first < 6 * n * n; first += LMB_TILE_PIXELS) {
-        set_tile(t, first, n, at);
-        for (int32_t part = 0; part < FINE * FINE; ++part) {
+        set_ray_tile(t, first, n, at);
+        for (int32_t part = 0; part < MIRROR_RAYS_A_SIDE * MIRROR_RAYS_A_SIDE; ++part) {
             point_fine(t, first, n, part);
             add_seen(t, 1.0f, kernels, &job);
         }
-        store(cube, t, first, 6 * n * n, 1.0f / (float)(FINE * FINE));
+        store_cube_texels(cube, t, first, 6 * n * n, 1.0f / (float)(MIRROR_RAYS_A_SIDE * MIRROR_RAYS_A_SIDE));
     }
 }
 
@@ -174,11 +174,11 @@ static void blur(float *cube, int32_t n, lmb_probe_rays *t, const lmb_kernels *k
 {
     lobe_ray rays[RAYS];
     const int32_t of = alpha < least_calm || query->world->peaks == 0 ? LMB_WORLD_ALL : LMB_WORLD_CALM;
-    const int around = of == LMB_WORLD_CALM ? CALM_AROUND : AROUND;
+    const int around = of == LMB_WORLD_CALM ? CALM_AROUND : RING_RAYS;
     const float weights = set_rays(rays, alpha, around), lobe = (1.0f + alpha * alpha) * (float)(RINGS * around);
     lmb_world_job job;
     for (int32_t first = 0; first < 6 * n * n; first += LMB_TILE_PIXELS) {
-        set_tile(t, first, n, at);
+        set_ray_tile(t, first, n, at);
         for (int i = 0; i < RINGS * around; ++i) {
             lmb_world_ask(&job, query->world, of, rays[i].width, query->blend);
             point_ray(t, &rays[i]);
@@ -187,7 +187,7 @@ static void blur(float *cube, int32_t n, lmb_probe_rays *t, const lmb_kernels *k
         if (of == LMB_WORLD_CALM) {
             add_peaks(t, &job, query->world, at, alpha, lobe);
         }
-        store(cube, t, first, 6 * n * n, 1.0f / weights);
+        store_cube_texels(cube, t, first, 6 * n * n, 1.0f / weights);
     }
 }
 

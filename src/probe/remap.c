@@ -6,13 +6,15 @@
 
 #if LMB_PROBES
 
-#define INSIDE 0.999f /* of the far world's size: points outside are clamped to it, or to the centre's distance */
+/* of the far world's size: points outside are clamped to it, or to the centre's distance */
+#define MAX_PLACE_SHARE 0.999f
 
-static void set_cube(lmb_world_job *job, const lmb_world *w, int is_calm)
+static void set_job_cube(lmb_world_job *job, const lmb_world *w, int is_calm)
 {
     const lmb_world_pictures *p = &w->pictures;
     const lmb_world_level *levels = is_calm ? w->calm : w->cube;
-    const lmb_vec3 middle = mul3(add3(p->low, p->high), 0.5f), half = mul3(sub3(p->high, p->low), 0.5f * INSIDE);
+    const lmb_vec3 middle = mul3(add3(p->low, p->high), 0.5f),
+                   half = mul3(sub3(p->high, p->low), 0.5f * MAX_PLACE_SHARE);
     const float max = 0.5001f * LMB_PI; /* a face, rad: levels with texels narrower than the ray are skipped */
     int32_t level = is_calm && w->cube_levels > 1; /* level 0 contains all light */
     while (level + 1 < w->cube_levels && (float)levels[level].width * job->ray_width > max) {
@@ -25,7 +27,7 @@ static void set_cube(lmb_world_job *job, const lmb_world *w, int is_calm)
     job->centre = p->centre;
     job->middle = p->middle;
     job->radius2 = p->radius * p->radius;
-    job->reach = maxf(INSIDE * p->radius, length3(sub3(p->centre, p->middle)));
+    job->reach = maxf(MAX_PLACE_SHARE * p->radius, length3(sub3(p->centre, p->middle)));
     job->low = p->low;
     job->high = p->high;
     job->reach_low = min3(sub3(middle, half), p->centre);
@@ -33,7 +35,7 @@ static void set_cube(lmb_world_job *job, const lmb_world *w, int is_calm)
 }
 
 /* A level serves rays up to one and a half texels wide; for wider ones the next level's texels are closer in size. */
-static void set_ground(lmb_world_job *job, const lmb_world *w)
+static void set_job_ground(lmb_world_job *job, const lmb_world *w)
 {
     const lmb_world_pictures *p = &w->pictures;
     job->ground_levels = w->ground_levels;
@@ -65,8 +67,8 @@ void lmb_world_ask(lmb_world_job *out, const lmb_world *world, int32_t of, float
     out->ray_width = ray_width;
     out->blend = blend;
     out->means = 0;
-    set_cube(out, world, of == LMB_WORLD_CALM && world->peaks > 0);
-    set_ground(out, world);
+    set_job_cube(out, world, of == LMB_WORLD_CALM && world->peaks > 0);
+    set_job_ground(out, world);
 }
 
 /* Flushes values under a millionth of a micrometre to 0: kernels must not meet denormals. */

@@ -8,14 +8,14 @@
 #include "cube.h"
 #include <lambent/probe.h>
 
-enum { WAVES = 9, BANDS = 5 };
+enum { SH_WAVES = 9, BANDS = 5 };
 
 /* Index of harmonic l, m >= 0. */
-static int32_t part_of(int32_t l, int32_t m) { return l * (l + 1) / 2 + m; }
+static int32_t index_of_harmonic(int32_t l, int32_t m) { return l * (l + 1) / 2 + m; }
 
-static void row_waves(float out[WAVES], const float *row, const lmb_probe_table *t)
+static void row_waves(float out[SH_WAVES], const float *row, const lmb_probe_table *t)
 {
-    for (int32_t w = 0; w < WAVES; ++w) {
+    for (int32_t w = 0; w < SH_WAVES; ++w) {
         const float *wave = t->wave + w * t->width;
         float sum[8] = {0}; /* eight independent sums, which compilers keep in registers */
         for (int32_t x = 0; x < t->width; x += 8) {
@@ -27,11 +27,11 @@ static void row_waves(float out[WAVES], const float *row, const lmb_probe_table 
     }
 }
 
-static void add_row(float inout[LMB_SH_25], const float wave[WAVES], const lmb_probe_table *t, int32_t y)
+static void add_map_row(float inout[LMB_SH_25], const float wave[SH_WAVES], const lmb_probe_table *t, int32_t y)
 {
     for (int32_t l = 0; l < BANDS; ++l) {
         for (int32_t m = 0; m <= l; ++m) {
-            const float part = t->area[y] * t->legendre[part_of(l, m) * t->height + y];
+            const float part = t->area[y] * t->legendre[index_of_harmonic(l, m) * t->height + y];
             inout[l * l + l + m] += part * wave[m];
             if (m > 0) {
                 inout[l * l + l - m] += part * wave[4 + m];
@@ -48,9 +48,9 @@ lmb_status lmb_probe_sh(float coefficient[3][LMB_SH_25], const float *map, const
     memset(coefficient, 0, 3 * sizeof *coefficient);
     for (int32_t c = 0; c < 3; ++c) {
         for (int32_t y = 0; y < table->height; ++y) {
-            float wave[WAVES];
+            float wave[SH_WAVES];
             row_waves(wave, map + (size_t)(c * table->height + y) * (size_t)table->width, table);
-            add_row(coefficient[c], wave, table, y);
+            add_map_row(coefficient[c], wave, table, y);
         }
     }
     return LMB_OK;

@@ -11,9 +11,9 @@ enum { SHARE_LANES = 16, SHARE_SIDE = LMB_PROBE_SIDE + 2 };
 
 /* Coefficients of the parabola through the middles of three texels, at t -0.5 .. 0.5 from the second: square t^2 + line
  * t + flat. */
-static const float share_square[SHARE_LANES] = {0.5f, 0.5f, 0.5f, 0.5f, -1, -1, -1, -1, 0.5f, 0.5f, 0.5f, 0.5f},
-                   share_line[SHARE_LANES] = {-0.5f, -0.5f, -0.5f, -0.5f, 0, 0, 0, 0, 0.5f, 0.5f, 0.5f, 0.5f},
-                   share_flat[SHARE_LANES] = {0, 0, 0, 0, 1, 1, 1, 1};
+static const float share_square[SHARE_LANES] = {0.5f, 0.5f, 0.5f, 0.5f, -1, -1, -1, -1, 0.5f, 0.5f, 0.5f, 0.5f};
+static const float share_line[SHARE_LANES] = {-0.5f, -0.5f, -0.5f, -0.5f, 0, 0, 0, 0, 0.5f, 0.5f, 0.5f, 0.5f};
+static const float share_flat[SHARE_LANES] = {0, 0, 0, 0, 1, 1, 1, 1};
 
 LANE_INLINE float share_place(uint8_t code) { return (float)code * (1.0f / 255.0f) - 0.5f; }
 

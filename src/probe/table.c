@@ -6,9 +6,9 @@
 #include "cube.h"
 #include <lambent/probe.h>
 
-enum { WAVES = 9, LEGENDRE = 15 };
+enum { ROW_WAVES = 9, LEGENDRE = 15 };
 
-static int is_size(int32_t width, int32_t height)
+static int is_table_size(int32_t width, int32_t height)
 {
     return height >= 8 && height <= 512 && height % 8 == 0 && width == 2 * height;
 }
@@ -17,16 +17,16 @@ static int is_size(int32_t width, int32_t height)
 static size_t table_words(int32_t width, int32_t height)
 {
     const size_t w = (size_t)width, h = (size_t)height;
-    return 3 * w * h / 2 + h + WAVES * w + LEGENDRE * h + w / 2 * (h / 2) + 3 * LMB_PROBE_TEXELS +
+    return 3 * w * h / 2 + h + ROW_WAVES * w + LEGENDRE * h + w / 2 * (h / 2) + 3 * LMB_PROBE_TEXELS +
            LMB_PROBE_BORDERED / 2;
 }
 
 size_t lmb_probe_table_bytes(int32_t width, int32_t height)
 {
-    return is_size(width, height) ? 4 * table_words(width, height) : 0;
+    return is_table_size(width, height) ? 4 * table_words(width, height) : 0;
 }
 
-static uint16_t code_of(float d) { return (uint16_t)(clampf(d, -1.0f, 1.0f) * 32767.5f + 32768.0f); }
+static uint16_t code_of_cosine(float d) { return (uint16_t)(clampf(d, -1.0f, 1.0f) * 32767.5f + 32768.0f); }
 
 static float latitude(int32_t row, int32_t height) { return LMB_PI * ((float)(2 * row + 1) / (float)(2 * height)); }
 
@@ -37,9 +37,9 @@ static void set_directions(lmb_probe_table *t, const float *longitude_cos, const
         const float from_north = latitude(row, t->height), round = lmb_sin(from_north), up = lmb_cos(from_north);
         for (int32_t x = 0; x < t->width; ++x) {
             uint16_t *d = t->direction + (size_t)row * (size_t)t->width + (size_t)x;
-            d[0] = code_of(round * longitude_sin[x]);
-            d[count] = code_of(up);
-            d[2 * count] = code_of(-round * longitude_cos[x]);
+            d[0] = code_of_cosine(round * longitude_sin[x]);
+            d[count] = code_of_cosine(up);
+            d[2 * count] = code_of_cosine(-round * longitude_cos[x]);
         }
     }
 }
@@ -112,7 +112,7 @@ static void set_lights(lmb_probe_table *t)
 }
 
 /* Four texels share the direction of their common corner. */
-static void set_shares(lmb_probe_table *t, float start)
+static void set_row_shares(lmb_probe_table *t, float start)
 {
     enum { SIDE = LMB_PROBE_SIDE + 2 };
     for (int32_t i = 0; i < t->width / 2 * (t->height / 2); ++i) {
@@ -143,7 +143,7 @@ static void set_fold(lmb_probe_table *t)
 lmb_status lmb_probe_table_init(lmb_probe_table *out, int32_t width, int32_t height, float start_deg, void *memory,
                                 size_t bytes)
 {
-    if (out == NULL || !is_size(width, height) || !(start_deg >= -360.0f && start_deg <= 360.0f)) {
+    if (out == NULL || !is_table_size(width, height) || !(start_deg >= -360.0f && start_deg <= 360.0f)) {
         return LMB_ERR_ARG;
     }
     const lmb_status status = check_memory(memory, bytes, lmb_probe_table_bytes(width, height));
@@ -157,7 +157,7 @@ lmb_status lmb_probe_table_init(lmb_probe_table *out, int32_t width, int32_t hei
     out->direction = (uint16_t *)memory;
     out->area = (float *)memory + 3 * w * h / 2;
     out->wave = out->area + h;
-    out->legendre = out->wave + WAVES * w;
+    out->legendre = out->wave + ROW_WAVES * w;
     out->light = out->legendre + LEGENDRE * h;
     out->share = (lmb_probe_share *)(void *)(out->light + 3 * LMB_PROBE_TEXELS);
     out->fold = (uint16_t *)(void *)(out->share + w / 2 * (h / 2));
@@ -165,7 +165,7 @@ lmb_status lmb_probe_table_init(lmb_probe_table *out, int32_t width, int32_t hei
     set_areas(out);
     set_legendre(out);
     set_lights(out);
-    set_shares(out, out->start);
+    set_row_shares(out, out->start);
     set_fold(out);
     set_directions(out, out->wave + w, out->wave + 5 * w);
     return LMB_OK;

@@ -9,9 +9,12 @@
 
 /* --- sizes -------------------------------------------------------------------------------------------------------- */
 
-static size_t texel_bytes(int32_t format) { return format == LMB_WORLD_LOG8 ? 4 : format == LMB_WORLD_LOG16 ? 8 : 16; }
+static size_t world_texel_bytes(int32_t format)
+{
+    return format == LMB_WORLD_LOG8 ? 4 : format == LMB_WORLD_LOG16 ? 8 : 16;
+}
 
-static int is_valid(const lmb_world_pictures *p, int32_t format)
+static int are_pictures_valid(const lmb_world_pictures *p, int32_t format)
 {
     return p != NULL && format >= LMB_WORLD_F32 && format <= LMB_WORLD_LOG8 && p->face_size >= 1 &&
            p->face_size <= 4096 &&
@@ -20,7 +23,7 @@ static int is_valid(const lmb_world_pictures *p, int32_t format)
 }
 
 /* Sets the levels of the faces from texel *end on and advances *end; returns their number. */
-static int32_t set_cube(lmb_world_level out[LMB_WORLD_LEVELS], size_t *end, const lmb_world_pictures *p)
+static int32_t lay_out_cube(lmb_world_level out[LMB_WORLD_LEVELS], size_t *end, const lmb_world_pictures *p)
 {
     int32_t count = 0;
     for (int32_t n = p->face_size; n >= 1 && count < LMB_WORLD_LEVELS; n /= 2) {
@@ -32,7 +35,7 @@ static int32_t set_cube(lmb_world_level out[LMB_WORLD_LEVELS], size_t *end, cons
 }
 
 /* The same for the ground; 0 without a ground. */
-static int32_t set_ground(lmb_world_level out[LMB_WORLD_LEVELS], size_t *end, const lmb_world_pictures *p)
+static int32_t lay_out_ground(lmb_world_level out[LMB_WORLD_LEVELS], size_t *end, const lmb_world_pictures *p)
 {
     int32_t count = 0;
     for (int32_t x = p->ground_width, y = p->ground_height; p->ground != NULL && count < LMB_WORLD_LEVELS;) {
@@ -53,7 +56,7 @@ static void set_calm(lmb_world_level out[LMB_WORLD_LEVELS], size_t *end, const l
 {
     const size_t whole = 6 * (size_t)(p->face_size + 2) * (size_t)(p->face_size + 2);
     size_t next = *end;
-    const int32_t count = set_cube(out, &next, p);
+    const int32_t count = lay_out_cube(out, &next, p);
     for (int32_t i = 1; i < count; ++i) {
         out[i].at -= (uint32_t)whole;
     }
@@ -65,13 +68,13 @@ size_t lmb_world_bytes(const lmb_world_pictures *pictures, int32_t format)
 {
     lmb_world_level level[LMB_WORLD_LEVELS];
     size_t texels = 0;
-    if (!is_valid(pictures, format)) {
+    if (!are_pictures_valid(pictures, format)) {
         return 0;
     }
-    set_cube(level, &texels, pictures);
-    set_ground(level, &texels, pictures);
+    lay_out_cube(level, &texels, pictures);
+    lay_out_ground(level, &texels, pictures);
     set_calm(level, &texels, pictures);
-    return texels * texel_bytes(format);
+    return texels * world_texel_bytes(format);
 }
 
 /* --- texels ------------------------------------------------------------------------------------------------------- */
@@ -84,11 +87,11 @@ static float sane_alpha(float a) { return a > 1e-5f ? minf(a, 1.0f) : 0.0f; }
 /* The texels of a level that one texel of the next level covers, in a cube face or in the ground. */
 typedef struct {
     halve_taps x, y;
-} box;
+} texel_box;
 
-static box box_of(const lmb_world_level *from, int32_t x, int32_t y)
+static texel_box box_of_texel(const lmb_world_level *from, int32_t x, int32_t y)
 {
-    const box b = {halve_axis(from->width, x), halve_axis(from->height, y)};
+    const texel_box b = {halve_axis(from->width, x), halve_axis(from->height, y)};
     return b;
 }
 
@@ -97,7 +100,7 @@ typedef void (*read_texel)(float rgba[4], const lmb_world *w, const lmb_world_le
                            int32_t y);
 
 /* Mean of the texels of a box, weighted by alpha. */
-static void mean_of_box(float out[4], const lmb_world *w, const lmb_world_level *from, int32_t face, box b,
+static void mean_of_box(float out[4], const lmb_world *w, const lmb_world_level *from, int32_t face, texel_box b,
                         read_texel read)
 {
     const float whole = (float)b.x.whole * (float)b.y.whole;
@@ -147,13 +150,13 @@ static void halve_faces(lmb_world *w, const lmb_world_level *to, const lmb_world
     for (int32_t i = 0; i < 6 * n * n; ++i) {
         const int32_t face = i / (n * n), x = i % n, y = i / n % n;
         float rgba[4];
-        mean_of_box(rgba, w, from, face, box_of(from, x, y), read_face);
+        mean_of_box(rgba, w, from, face, box_of_texel(from, x, y), read_face);
         lmb_world_put(w, lmb_world_face_texel(to, face, x, y), rgba);
     }
 }
 
 /* Copies each border texel from the interior texel in the same direction. */
-static void set_border(lmb_world *w, const lmb_world_level *l)
+static void set_level_border(lmb_world *w, const lmb_world_level *l)
 {
     const int32_t n = l->width;
     for (int32_t i = 0; i < 6 * (n + 2) * (n + 2); ++i) {
@@ -184,7 +187,7 @@ static void calm_part(lmb_world *w, const lmb_world_peak *peak)
     for (int32_t y = (from[1] - odd) / 2; y <= mini((to[1] - 1) / 2, last); ++y) {
         for (int32_t x = (from[0] - odd) / 2; x <= mini((to[0] - 1) / 2, last); ++x) {
             float rgba[4];
-            mean_of_box(rgba, w, &w->calm[0], peak->face, box_of(&w->calm[0], x, y), read_calm);
+            mean_of_box(rgba, w, &w->calm[0], peak->face, box_of_texel(&w->calm[0], x, y), read_calm);
             lmb_world_put(w, lmb_world_face_texel(&w->calm[1], peak->face, x, y), rgba);
         }
     }
@@ -197,7 +200,7 @@ static void make_calm(lmb_world *w)
         for (int32_t k = 0; k < w->peaks && i == 1; ++k) {
             calm_part(w, &w->peak[k]);
         }
-        set_border(w, &w->calm[i]);
+        set_level_border(w, &w->calm[i]);
     }
 }
 
@@ -226,7 +229,7 @@ static void halve_ground(lmb_world *w, const lmb_world_level *to, const lmb_worl
     for (int32_t y = 0; y < to->height; ++y) {
         for (int32_t x = 0; x < to->width; ++x) {
             float rgba[4];
-            mean_of_box(rgba, w, from, 0, box_of(from, x, y), read_ground);
+            mean_of_box(rgba, w, from, 0, box_of_texel(from, x, y), read_ground);
             lmb_world_put(w, to->at + (size_t)y * (size_t)to->width + (size_t)x, rgba);
         }
     }
@@ -234,7 +237,7 @@ static void halve_ground(lmb_world *w, const lmb_world_level *to, const lmb_worl
 
 /* --- all ---------------------------------------------------------------------------------------------------------- */
 
-static int is_inside(const lmb_world_pictures *p)
+static int is_camera_inside(const lmb_world_pictures *p)
 {
     const lmb_vec3 c = p->centre;
     if (!is_place(c) || !is_place(p->middle) || !is_place(p->low) || !is_place(p->high) ||
@@ -274,7 +277,7 @@ lmb_status lmb_world_init(lmb_world *out, const lmb_world_pictures *pictures, in
     if (format < LMB_WORLD_F32 || format > LMB_WORLD_LOG8) {
         return LMB_ERR_FORMAT;
     }
-    if (!is_valid(pictures, format) || !is_inside(pictures) || !ground_is_valid(pictures)) {
+    if (!are_pictures_valid(pictures, format) || !is_camera_inside(pictures) || !ground_is_valid(pictures)) {
         return LMB_ERR_ARG;
     }
     const lmb_status status = check_memory(memory, bytes, lmb_world_bytes(pictures, format));
@@ -285,14 +288,14 @@ lmb_status lmb_world_init(lmb_world *out, const lmb_world_pictures *pictures, in
     out->format = format;
     out->pictures = *pictures;
     set_codes(out);
-    out->cube_levels = set_cube(out->cube, &end, pictures);
-    out->ground_levels = set_ground(out->ground, &end, pictures);
+    out->cube_levels = lay_out_cube(out->cube, &end, pictures);
+    out->ground_levels = lay_out_ground(out->ground, &end, pictures);
     set_calm(out->calm, &end, pictures);
     take_faces(out, pictures);
-    set_border(out, &out->cube[0]);
+    set_level_border(out, &out->cube[0]);
     for (int32_t i = 1; i < out->cube_levels; ++i) {
         halve_faces(out, &out->cube[i], &out->cube[i - 1]);
-        set_border(out, &out->cube[i]);
+        set_level_border(out, &out->cube[i]);
     }
     if (lmb_world_find_peaks(out) > 0) {
         make_calm(out);

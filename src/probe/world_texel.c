@@ -18,15 +18,19 @@ float lmb_world_decode(float e)
     return maxf(lmb_exp2((3.0f * e - 1.0f) * LMB_WORLD_LOG2_10) - LOG_SHIFT, 0.0f);
 }
 
-static int32_t code_of(float e, float steps) { return (int32_t)(e * steps + 0.5f); }
+static int32_t code_of_exponent(float e, float steps) { return (int32_t)(e * steps + 0.5f); }
 
 void lmb_world_put(const lmb_world *w, size_t at, const float rgba[4])
 {
     for (int c = 0; c < 4; ++c) {
         const float v = c < 3 && w->format != LMB_WORLD_F32 ? lmb_world_encode(rgba[c]) : rgba[c];
         switch (w->format) {
-        case LMB_WORLD_LOG8: ((uint8_t *)w->texels)[4 * at + (size_t)c] = (uint8_t)code_of(v, 255.0f); break;
-        case LMB_WORLD_LOG16: ((uint16_t *)w->texels)[4 * at + (size_t)c] = (uint16_t)code_of(v, 65535.0f); break;
+        case LMB_WORLD_LOG8:
+            ((uint8_t *)w->texels)[4 * at + (size_t)c] = (uint8_t)code_of_exponent(v, 255.0f);
+            break;
+        case LMB_WORLD_LOG16:
+            ((uint16_t *)w->texels)[4 * at + (size_t)c] = (uint16_t)code_of_exponent(v, 65535.0f);
+            break;
         default: ((float *)w->texels)[4 * at + (size_t)c] = v; break;
         }
     }

@@ -12,15 +12,15 @@
 #include "target.h"
 #include "triangle.h"
 
-enum { SMALL, LARGE, KINDS };
-enum { LINE = 64, ROWS_SHIFT = 7, BIN_BYTES = 1 << 20 };
+enum { SMALL_BLOCKS, LARGE_BLOCKS, BLOCK_KINDS };
+enum { BIN_ALIGN_BYTES = 64, ROWS_SHIFT = 7, BIN_BYTES = 1 << 20 };
 
 typedef struct bin {
-    uint32_t first[KINDS], last[KINDS]; /* blocks, if there are any */
-    uint32_t count[KINDS];              /* triangles */
+    uint32_t first[BLOCK_KINDS], last[BLOCK_KINDS]; /* blocks, if there are any */
+    uint32_t count[BLOCK_KINDS];                    /* triangles */
 } bin;
 
-enum { MASKED = 1, BLENDS = 2 };
+enum { LARGE_IS_MASKED = 1, LARGE_BLENDS = 2 };
 
 /* A triangle that is large, was clipped, or has holes. */
 typedef struct bin_large {
@@ -30,7 +30,7 @@ typedef struct bin_large {
 } bin_large;
 
 enum { BLOCK_BYTES = sizeof(lmb_bin_block), LARGE_BYTES = sizeof(bin_large) };
-enum { LARGES = BLOCK_BYTES / LARGE_BYTES }; /* per block */
+enum { LARGES_A_BLOCK = BLOCK_BYTES / LARGE_BYTES }; /* per block */
 
 /* Layout of the caller's memory. */
 typedef struct bin_pool {
@@ -65,7 +65,7 @@ static uint32_t bin_count(const lmb_view *view)
 
 static size_t table_bytes(const lmb_view *view)
 {
-    return (bin_count(view) * sizeof(bin) + LINE - 1) / LINE * LINE;
+    return (bin_count(view) * sizeof(bin) + BIN_ALIGN_BYTES - 1) / BIN_ALIGN_BYTES * BIN_ALIGN_BYTES;
 }
 
 int32_t lmb_bins_rows(const lmb_view *view)
@@ -79,14 +79,15 @@ size_t lmb_bins_bytes(const lmb_view *view, uint32_t triangles)
         return 0;
     }
     const uint64_t blocks = (uint64_t)(triangles / LMB_BATCH) * 2 + 2 * (uint64_t)bin_count(view) + 2,
-                   bytes = table_bytes(view) + blocks * (sizeof(lmb_bin_block) + sizeof(uint32_t)) + LINE;
+                   bytes = table_bytes(view) + blocks * (sizeof(lmb_bin_block) + sizeof(uint32_t)) + BIN_ALIGN_BYTES;
     return bytes <= SIZE_MAX ? (size_t)bytes : 0;
 }
 
 /* Returns 0 if not even the bins fit. */
 static int pool_find(bin_pool *p, const lmb_bins *bins)
 {
-    const size_t table = table_bytes(&bins->view), skip = (LINE - (uintptr_t)bins->memory % LINE) % LINE;
+    const size_t table = table_bytes(&bins->view),
+                 skip = (BIN_ALIGN_BYTES - (uintptr_t)bins->memory % BIN_ALIGN_BYTES) % BIN_ALIGN_BYTES;
     if (bins->memory == NULL || bins->bytes < table + skip) {
         return 0;
     }
@@ -106,7 +107,7 @@ static int pool_find(bin_pool *p, const lmb_bins *bins)
 
 static void block_soon(const bin_pool *p, uint32_t i)
 {
-    for (size_t at = 0; at < sizeof(lmb_bin_block); at += LINE) {
+    for (size_t at = 0; at < sizeof(lmb_bin_block); at += BIN_ALIGN_BYTES) {
         MESH_SOON((const uint8_t *)&p->block[i] + at);
     }
 }
@@ -140,7 +141,7 @@ static inline lmb_bin_block *pool_place(bin_pool *p, bin *b, int kind, uint32_t 
 static inline int put_small(bin_pool *p, bin *b, const lmb_bin_block *from, int k, uint32_t id)
 {
     uint32_t i;
-    lmb_bin_block *to = pool_place(p, b, SMALL, LMB_BATCH, &i);
+    lmb_bin_block *to = pool_place(p, b, SMALL_BLOCKS, LMB_BATCH, &i);
     if (to == NULL) {
         return 0;
     }
@@ -158,25 +159,25 @@ static inline int put_small(bin_pool *p, bin *b, const lmb_bin_block *from, int 
 static int put_large(bin_pool *p, bin *b, const bin_large *large)
 {
     uint32_t i;
-    lmb_bin_block *to = pool_place(p, b, LARGE, LARGES, &i);
+    lmb_bin_block *to = pool_place(p, b, LARGE_BLOCKS, LARGES_A_BLOCK, &i);
     if (to == NULL) {
         return 0;
     }
     bin_large *own = (bin_large *)(void *)to + i;
     *own = *large;
-    own->before = b->count[SMALL];
+    own->before = b->count[SMALL_BLOCKS];
     return 1;
 }
 
 /* First and last pixels in 0 .. size - 1 with a sample between two 24.8 positions. */
-static void span(int32_t *first, int32_t *last, int32_t low, int32_t high, int32_t origin, int32_t size)
+static void span_of_tiles(int32_t *first, int32_t *last, int32_t low, int32_t high, int32_t origin, int32_t size)
 {
     *first = maxi((low + 255 - origin) >> 8, 0);
     *last = mini((high - origin) >> 8, size - 1);
 }
 
 /* Returns 0 if memory is exhausted. Sets *seen if the triangle has area and is not culled. */
-static int put_triangle(bin_pool *p, const lmb_draw_instance *d, const bin_large *large, int *seen)
+static int put_large_triangle(bin_pool *p, const lmb_draw_instance *d, const bin_large *large, int *seen)
 {
     const lmb_screen_vertex *a = &large->corner[0], *b = &large->corner[1], *c = &large->corner[2];
     const int64_t area = setup_area(a, b, c);
@@ -185,10 +186,10 @@ static int put_triangle(bin_pool *p, const lmb_draw_instance *d, const bin_large
         return 1;
     }
     *seen = 1;
-    span(&x0, &x1, mini(a->x_24_8, mini(b->x_24_8, c->x_24_8)), maxi(a->x_24_8, maxi(b->x_24_8, c->x_24_8)),
-         d->job.origin_x, p->width);
-    span(&y0, &y1, mini(a->y_24_8, mini(b->y_24_8, c->y_24_8)), maxi(a->y_24_8, maxi(b->y_24_8, c->y_24_8)),
-         d->job.origin_y, p->height);
+    span_of_tiles(&x0, &x1, mini(a->x_24_8, mini(b->x_24_8, c->x_24_8)), maxi(a->x_24_8, maxi(b->x_24_8, c->x_24_8)),
+                  d->job.origin_x, p->width);
+    span_of_tiles(&y0, &y1, mini(a->y_24_8, mini(b->y_24_8, c->y_24_8)), maxi(a->y_24_8, maxi(b->y_24_8, c->y_24_8)),
+                  d->job.origin_y, p->height);
     if (x0 > x1 || y0 > y1 || p->is_full) {
         return 1;
     }
@@ -215,11 +216,11 @@ static int put_other(bin_pool *p, const lmb_draw_instance *d, const lmb_bin_batc
         n = lmb_one_corners(corner, d, id);
     }
     large.id = id;
-    large.flags = (d->masked ? MASKED : 0u) | (d->blends ? BLENDS : 0u);
+    large.flags = (d->masked ? LARGE_IS_MASKED : 0u) | (d->blends ? LARGE_BLENDS : 0u);
     large.before = 0;
     for (int i = 2; i < n; ++i) {
         large.corner[0] = corner[0], large.corner[1] = corner[i - 1], large.corner[2] = corner[i];
-        if (!put_triangle(p, d, &large, seen)) {
+        if (!put_large_triangle(p, d, &large, seen)) {
             return 0;
         }
     }
@@ -249,7 +250,7 @@ typedef struct bin_builder {
 } bin_builder;
 
 /* Adds the triangle to bins, if there is memory. */
-static void put(bin_builder *b, const lmb_draw_instance *d, int k, uint32_t id, int is_other, uint32_t *drawn)
+static void put_in_bin(bin_builder *b, const lmb_draw_instance *d, int k, uint32_t id, int is_other, uint32_t *drawn)
 {
     bin_pool *p = &b->pool;
     int seen = 0, fits;
@@ -276,7 +277,7 @@ static void build_batch(bin_builder *b, const lmb_draw_instance *d, uint32_t id,
     uint32_t drawn = set_size(d->masked ? sets->drawn & ~sets->small : sets->drawn);
     for (uint32_t left = sets->small | other; left != 0; left &= left - 1) {
         const int k = lowest_bit(left);
-        put(b, d, k, id + (uint32_t)k, (int)(other >> k & 1u), &drawn);
+        put_in_bin(b, d, k, id + (uint32_t)k, (int)(other >> k & 1u), &drawn);
     }
     if (b->stats != NULL) {
         b->stats->triangles += count;
@@ -310,7 +311,7 @@ static void build_instance(bin_builder *b, const lmb_draw_instance *d, uint32_t 
 }
 
 /* An instance in a window without memory, as large as windows may be. */
-NOINLINE void set_instance(lmb_draw_instance *out, const lmb_bins *bins, const lmb_instance *instance)
+NOINLINE void set_bin_instance(lmb_draw_instance *out, const lmb_bins *bins, const lmb_instance *instance)
 {
     lmb_target frame;
     lmb_fill_context c;
@@ -324,7 +325,7 @@ NOINLINE void set_instance(lmb_draw_instance *out, const lmb_bins *bins, const l
 }
 
 /* The frame in which clusters are tested. */
-static void set_frame(bin_builder *b, const lmb_view *view)
+static void set_bin_frame(bin_builder *b, const lmb_view *view)
 {
     memset(&b->frame, 0, sizeof b->frame);
     b->frame.tiles_x = (with_last_tile(view->frame_width) + LMB_TILE - 1) / LMB_TILE;
@@ -343,11 +344,11 @@ static void build_all(bin_builder *b, const lmb_culling *culling)
         return;
     }
     const lmb_instance *end = scene->instances + scene->instance_count;
-    set_frame(b, &bins->view);
+    set_bin_frame(b, &bins->view);
     for (; instance < end && instance->first_id < bins->end_id; ++instance) {
         const uint32_t past = instance->first_id + scene->meshes[instance->mesh].triangle_count;
         lmb_draw_instance d;
-        set_instance(&d, bins, instance);
+        set_bin_instance(&d, bins, instance);
 #if LMB_PLAIN_LANES == 1
         memset(b->batch.sets.kept, 0, sizeof b->batch.sets.kept);
 #endif
@@ -363,8 +364,8 @@ static void build_all(bin_builder *b, const lmb_culling *culling)
 static void fill_up(const bin_pool *p, uint32_t bins)
 {
     for (uint32_t n = 0; n < bins; ++n) {
-        const uint32_t used = p->bins[n].count[SMALL] % LMB_BATCH;
-        lmb_bin_block *b = &p->block[p->bins[n].last[SMALL]];
+        const uint32_t used = p->bins[n].count[SMALL_BLOCKS] % LMB_BATCH;
+        lmb_bin_block *b = &p->block[p->bins[n].last[SMALL_BLOCKS]];
         for (uint32_t i = used; used != 0 && i < LMB_BATCH; ++i) {
             b->x[i] = b->y[i] = b->to_b[i] = b->to_c[i] = 0;
             b->d[0][i] = b->d[1][i] = b->d[2][i] = 0.0f;
@@ -425,8 +426,8 @@ static void draw_large(const lmb_fill_context *c, const bin_large *l)
     if (!lmb_setup_triangle(&setup, &l->corner[0], &l->corner[1], &l->corner[2])) {
         return;
     }
-    if (l->flags & MASKED) {
-        lmb_fill_masked(c, &setup, l->id, LMB_MULTISAMPLE && (l->flags & BLENDS) != 0);
+    if (l->flags & LARGE_IS_MASKED) {
+        lmb_fill_masked(c, &setup, l->id, LMB_MULTISAMPLE && (l->flags & LARGE_BLENDS) != 0);
     } else {
         fill_one(c, &setup, l->id);
     }
@@ -435,8 +436,8 @@ static void draw_large(const lmb_fill_context *c, const bin_large *l)
 /* The next large triangle if it precedes the bin's small one number `past`; otherwise NULL. */
 static const bin_large *next_large(bin_drawing *d, uint32_t past)
 {
-    const uint32_t i = d->large % LARGES;
-    if (d->large == d->bin->count[LARGE]) {
+    const uint32_t i = d->large % LARGES_A_BLOCK;
+    if (d->large == d->bin->count[LARGE_BLOCKS]) {
         return NULL;
     }
     const bin_large *large = (const bin_large *)(const void *)&d->pool->block[d->large_block] + i;
@@ -444,7 +445,7 @@ static const bin_large *next_large(bin_drawing *d, uint32_t past)
         return NULL;
     }
     ++d->large;
-    d->large_block = i == LARGES - 1 ? d->pool->next[d->large_block] : d->large_block;
+    d->large_block = i == LARGES_A_BLOCK - 1 ? d->pool->next[d->large_block] : d->large_block;
     return large;
 }
 
@@ -473,7 +474,7 @@ static void draw_block(bin_drawing *d, lmb_batch *batch, const lmb_bin_block *bl
 }
 
 /* 1 if drawn surfaces hide all of a full block. Tests each fourth block, and blocks that follow a hidden one. */
-static int is_hidden(bin_drawing *d, const lmb_bin_block *block)
+static int is_block_hidden(bin_drawing *d, const lmb_bin_block *block)
 {
     enum { EACH = 4, AFTER = 16 };
     const lmb_fill_context *c = &d->context;
@@ -490,15 +491,15 @@ static int is_hidden(bin_drawing *d, const lmb_bin_block *block)
 static void draw_bin(bin_drawing *d)
 {
     const bin_pool *p = d->pool;
-    const uint32_t count = d->bin->count[SMALL];
+    const uint32_t count = d->bin->count[SMALL_BLOCKS];
     lmb_batch batch;
     d->asked = d->asks = 0;
     d->large = 0;
-    d->large_block = d->bin->first[LARGE];
-    for (uint32_t n = 0, i = d->bin->first[SMALL]; n < count; n += LMB_BATCH, i = p->next[i]) {
+    d->large_block = d->bin->first[LARGE_BLOCKS];
+    for (uint32_t n = 0, i = d->bin->first[SMALL_BLOCKS]; n < count; n += LMB_BATCH, i = p->next[i]) {
         const uint32_t own = count - n < LMB_BATCH ? count - n : LMB_BATCH;
         block_soon(p, p->next[i]);
-        draw_block(d, &batch, &p->block[i], n, own, own == LMB_BATCH && is_hidden(d, &p->block[i]));
+        draw_block(d, &batch, &p->block[i], n, own, own == LMB_BATCH && is_block_hidden(d, &p->block[i]));
     }
     for (const bin_large *l; (l = next_large(d, UINT32_MAX)) != NULL;) {
         draw_large(&d->context, l);
@@ -506,8 +507,8 @@ static void draw_bin(bin_drawing *d)
 }
 
 /* A window's tile rows first .. first + count - 1, which lie in one bin. */
-static void set_rows(bin_drawing *out, lmb_target *rows, const lmb_target *target, const lmb_bins *bins, int32_t first,
-                     int32_t count, const lmb_culling *culling)
+static void set_bin_rows(bin_drawing *out, lmb_target *rows, const lmb_target *target, const lmb_bins *bins,
+                         int32_t first, int32_t count, const lmb_culling *culling)
 {
     const lmb_view *view = &bins->view;
     lmb_setup_job *job = &out->job;
@@ -540,8 +541,8 @@ static void clear_rows(const bin_drawing *d)
 
 /* Draws the binned triangles of `count` bins, one bin after another. A separate function, because draw_rest needs the
  * stack, too. */
-NOINLINE void draw_rows(const lmb_target *target, const lmb_kernels *kernels, const lmb_bins *bins, int32_t count,
-                      int32_t clear, const lmb_culling *culling)
+NOINLINE void draw_bin_rows(const lmb_target *target, const lmb_kernels *kernels, const lmb_bins *bins, int32_t count,
+                            int32_t clear, const lmb_culling *culling)
 {
     const int shift = rows_shift(&bins->view);
     const int32_t end = target->y0 + target->depth.height;
@@ -551,8 +552,8 @@ NOINLINE void draw_rows(const lmb_target *target, const lmb_kernels *kernels, co
         past = mini(((y >> shift) + 1) << shift, end);
         for (int32_t i = 0; i < count; ++i) {
             bin_pool pool;
-            set_rows(&d, &rows, target, &bins[i], (y - target->y0) / LMB_TILE, (past - y + LMB_TILE - 1) / LMB_TILE,
-                     culling);
+            set_bin_rows(&d, &rows, target, &bins[i], (y - target->y0) / LMB_TILE, (past - y + LMB_TILE - 1) / LMB_TILE,
+                         culling);
             d.context.kernels = kernels;
             if (clear && i == 0) {
                 clear_rows(&d);
@@ -612,7 +613,7 @@ lmb_status lmb_bins_draw(const lmb_target *target, const lmb_kernels *kernels, c
         do {
             fits = bins[to].past_id >= bins[to].end_id;
         } while (++to < count && fits);
-        draw_rows(target, kernels, bins + from, to - from, clear && from == 0, culling);
+        draw_bin_rows(target, kernels, bins + from, to - from, clear && from == 0, culling);
         if (!fits) {
             status = draw_rest(target, kernels, &bins[to - 1], culling);
         }

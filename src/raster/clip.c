@@ -62,7 +62,7 @@ static lmb_clip_vertex intersect(const lmb_clip_vertex *a, const lmb_clip_vertex
     return r;
 }
 
-static int cut(lmb_clip_vertex *polygon, int n, uint32_t plane, const lmb_clip_guard *guard)
+static int cut_by_plane(lmb_clip_vertex *polygon, int n, uint32_t plane, const lmb_clip_guard *guard)
 {
     lmb_clip_vertex out[LMB_CLIP_MAX + 1];
     int m = 0;
@@ -86,7 +86,7 @@ int lmb_clip_polygon(lmb_clip_vertex polygon[LMB_CLIP_MAX], uint32_t planes, con
     for (uint32_t plane = CLIP_NEAR; plane <= CLIP_BOTTOM && n >= 3; plane <<= 1) {
         /* Only planes that cut the triangle itself: a new corner lies between two old ones. */
         if (planes & plane) {
-            n = cut(polygon, n, plane, guard);
+            n = cut_by_plane(polygon, n, plane, guard);
         }
     }
     return n >= 3 ? n : 0;

@@ -10,7 +10,7 @@
 #include "../base/vertex.h"
 
 /* Kernels read as many bounds as they have lanes, also past the last tile. */
-enum { BESIDE = 15 };
+enum { SPARE_BOUNDS = 15 };
 
 uint32_t lmb_culling_tiles(const lmb_target *target)
 {
@@ -20,7 +20,7 @@ uint32_t lmb_culling_tiles(const lmb_target *target)
     }
     return (uint32_t)((target->depth.width + LMB_TILE - 1) / LMB_TILE) *
                (uint32_t)((target->depth.height + LMB_TILE - 1) / LMB_TILE) +
-           BESIDE;
+           SPARE_BOUNDS;
 }
 
 static uint32_t mesh_clusters(const lmb_mesh *mesh)

@@ -14,7 +14,7 @@
 
 #define GUARD_PX 16383.0f /* from the frame's centre; one px of rounding below the limit of setup.c */
 
-static void set_row(float row[4], lmb_vec3 axis, float sign, const lmb_mat4 *t, lmb_vec3 eye)
+static void set_clip_row(float row[4], lmb_vec3 axis, float sign, const lmb_mat4 *t, lmb_vec3 eye)
 {
     const float *m = t->m;
     lmb_vec3 a = mul3(axis, sign);
@@ -25,11 +25,11 @@ static void set_row(float row[4], lmb_vec3 axis, float sign, const lmb_mat4 *t, 
     row[3] = dot3(a, sub3(vec3(m[12], m[13], m[14]), eye));
 }
 
-static void set_job(lmb_setup_job *job, const lmb_target *target, const lmb_view *view, const lmb_mat4 *to_world)
+static void set_setup_job(lmb_setup_job *job, const lmb_target *target, const lmb_view *view, const lmb_mat4 *to_world)
 {
-    set_row(job->row[0], view->right, 1.0f, to_world, view->eye);
-    set_row(job->row[1], view->up, 1.0f, to_world, view->eye);
-    set_row(job->row[2], view->back, -1.0f, to_world, view->eye);
+    set_clip_row(job->row[0], view->right, 1.0f, to_world, view->eye);
+    set_clip_row(job->row[1], view->up, 1.0f, to_world, view->eye);
+    set_clip_row(job->row[2], view->back, -1.0f, to_world, view->eye);
     job->scale_x = 1.0f / view->half_width;
     job->scale_y = 1.0f / view->half_height;
     job->guard_x = GUARD_PX * 2.0f / (float)view->frame_width;
@@ -47,7 +47,7 @@ void lmb_draw_instance_set(lmb_draw_instance *d, const lmb_fill_context *c, cons
                            uint32_t flags)
 {
     const lmb_material *material = &c->scene->materials[instance->material];
-    set_job(&d->job, c->target, c->view, &instance->to_world);
+    set_setup_job(&d->job, c->target, c->view, &instance->to_world);
     d->guard.x = d->job.guard_x;
     d->guard.y = d->job.guard_y;
     d->mirrored = is_mirrored(&instance->to_world) != 0;
@@ -167,7 +167,8 @@ static lmb_status set_context(lmb_fill_context *out, const lmb_target *target, c
     return status;
 }
 
-static void draw_range(lmb_fill_context *context, uint32_t first_id, uint32_t count, uint32_t flags, lmb_stats *stats)
+static void draw_id_range(lmb_fill_context *context, uint32_t first_id, uint32_t count, uint32_t flags,
+                          lmb_stats *stats)
 {
     const lmb_scene *scene = context->scene;
     if (scene->instance_count == 0) {
@@ -193,7 +194,7 @@ lmb_status lmb_draw(const lmb_target *target, const lmb_kernels *kernels, const 
 #if LMB_CULLING
         context.culling = NULL;
 #endif
-        draw_range(&context, first_id, count, flags, stats);
+        draw_id_range(&context, first_id, count, flags, stats);
     }
     return status;
 }
@@ -217,7 +218,7 @@ lmb_status lmb_draw_culled(const lmb_target *target, const lmb_kernels *kernels,
     context.place.asked = context.place.asks = 0;
     context.window.farthest = culling->farthest;
     context.window.bounds = culling->farthest != NULL ? LMB_BOUNDS_RAISED : LMB_BOUNDS_IDLE;
-    draw_range(&context, first_id, count, flags, stats);
+    draw_id_range(&context, first_id, count, flags, stats);
     return LMB_OK;
 }
 #endif

@@ -13,19 +13,19 @@
 #include "texture.h"
 
 /* Max texels read per pixel of a triangle's tiles, to test whether it is all hole; FEW_TEXELS: if a kernel fills it. */
-#define TEXELS     8u
+#define MAX_TEXELS_A_TILE   8u
 #define FEW_TEXELS 2u
-#define LEAST  (1.0f / 512.0f) /* thresholds of a surface that blends: min and max */
-#define LARGEST (511.0f / 512.0f)
-#define FLAT   0.05f /* min slope of a tile's rays to the plane, of the largest, for one test of all pixels */
-#define WIDER  (1.0f / 64.0f) /* part of a tile's barycentrics, for rounding */
+#define MIN_BLEND_THRESHOLD (1.0f / 512.0f) /* thresholds of a surface that blends: min and max */
+#define MAX_BLEND_THRESHOLD (511.0f / 512.0f)
+#define MIN_PLANE_SLOPE     0.05f /* least of a tile's slopes, of the largest, to test all pixels at once */
+#define BARYCENTRIC_MARGIN  (1.0f / 64.0f) /* part of a tile's barycentrics, for rounding */
 
 /* Max texels read to test whether a tile is all hole or all solid. Its 64 pixels read 256. */
 #define TILE_TEXELS 128u
 
 /* Pieces of the current tile that need no test of single pixels. Before the first pixel passes the depth test the tile
  * is not examined. */
-enum { MIXED = 0, UNKNOWN = 4 };
+enum { COVERS_SOME = 0, COVERS_UNKNOWN = 4 };
 
 /* The triangle's surface, and the rays of the current tile. */
 typedef struct masked_surface {
@@ -40,7 +40,7 @@ typedef struct masked_surface {
     lmb_masked_job job; /* if `batches`, but for the rays */
     int batches;        /* the kernel fills whole tiles */
 #endif
-    int part;     /* of the current tile: MIXED, UNKNOWN, LMB_COVERS_NONE or LMB_COVERS_ALL */
+    int part; /* of the current tile: COVERS_SOME, COVERS_UNKNOWN, LMB_COVERS_NONE or LMB_COVERS_ALL */
 } masked_surface;
 
 /* A 32-bit hash of a surface and a square of pixels. */
@@ -111,19 +111,20 @@ NOINLINE int tile_part(const masked_surface *s, const lmb_fill_context *c)
             high[k] = i == 0 ? b[k] : maxf(high[k], b[k]);
         }
     }
-    if (!(slope_min > FLAT * slope_max && slope_max > 0.0f) && !(slope_max < FLAT * slope_min && slope_min < 0.0f)) {
-        return MIXED;
+    if (!(slope_min > MIN_PLANE_SLOPE * slope_max && slope_max > 0.0f) &&
+        !(slope_max < MIN_PLANE_SLOPE * slope_min && slope_min < 0.0f)) {
+        return COVERS_SOME;
     }
     for (int k = 0; k < 2; ++k) {
-        const float wider = WIDER * (high[k] - low[k]);
+        const float wider = BARYCENTRIC_MARGIN * (high[k] - low[k]);
         if (!is_sane(low[k]) || !is_sane(high[k])) {
-            return MIXED;
+            return COVERS_SOME;
         }
         low[k] -= wider;
         high[k] += wider;
     }
-    return lmb_resolve_coverage(&s->alpha, c->scene, low, high, blends ? LEAST : s->alpha.cutoff,
-                                blends ? LARGEST : s->alpha.cutoff, &texels);
+    return lmb_resolve_coverage(&s->alpha, c->scene, low, high, blends ? MIN_BLEND_THRESHOLD : s->alpha.cutoff,
+                                blends ? MAX_BLEND_THRESHOLD : s->alpha.cutoff, &texels);
 }
 #endif
 
@@ -132,8 +133,8 @@ static int stands_at(masked_surface *s, const lmb_fill_context *c, int32_t x, in
 {
     float b1, b2;
 #if LMB_TREES
-    s->part = s->part == UNKNOWN ? tile_part(s, c) : s->part;
-    if (s->part != MIXED) {
+    s->part = s->part == COVERS_UNKNOWN ? tile_part(s, c) : s->part;
+    if (s->part != COVERS_SOME) {
         return s->part == LMB_COVERS_ALL;
     }
 #endif
@@ -154,13 +155,13 @@ static int stands_at(masked_surface *s, const lmb_fill_context *c, int32_t x, in
 }
 
 /* Same values as fill.inl. */
-static float depth_at(const lmb_fill_job *job, int32_t x, int32_t y)
+static float target_depth_at(const lmb_fill_job *job, int32_t x, int32_t y)
 {
     const float d = (job->d + job->dy * (float)y) + job->dx * (float)x;
     return minf(maxf(d, job->d_min), job->d_max);
 }
 
-static float code_of(const lmb_fill_job *job, float d)
+static float depth_code_of(const lmb_fill_job *job, float d)
 {
     return floorf(maxf(minf(65535.0f, d * job->d_scale + job->d_bias), 0.0f));
 }
@@ -179,7 +180,7 @@ static void fill_pixel(const lmb_fill_context *c, const lmb_fill_tile *tile, con
                        masked_surface *s, int32_t x, int32_t y)
 {
     const int32_t at = y * tile->depth_step + x;
-    const float d = depth_at(job, x, y);
+    const float d = target_depth_at(job, x, y);
     if (tile->depth_format == LMB_DEPTH32F) {
         float *was = (float *)tile->depth + at;
         if (!(*was < d) || !stands_at(s, c, x, y)) {
@@ -188,7 +189,7 @@ static void fill_pixel(const lmb_fill_context *c, const lmb_fill_tile *tile, con
         *was = d;
     } else {
         uint16_t *was = (uint16_t *)tile->depth + at;
-        const float code = code_of(job, d);
+        const float code = depth_code_of(job, d);
         if (!((float)*was < code) || !stands_at(s, c, x, y)) {
             return;
         }
@@ -264,7 +265,7 @@ NOINLINE int set_surface(masked_surface *out, const lmb_fill_context *c, uint32_
 
 #if LMB_TREES
 /* Sets the kernel's job, if there is a kernel for the surface. */
-static void set_job(masked_surface *s, const lmb_fill_context *c)
+static void set_masked_job(masked_surface *s, const lmb_fill_context *c)
 {
     lmb_masked_job *j = &s->job;
     s->batches = c->kernels->fill_masked != NULL && s->texture != NULL && !(LMB_MULTISAMPLE && s->blends);
@@ -285,13 +286,13 @@ static void set_job(masked_surface *s, const lmb_fill_context *c)
 
 /* 1 if the surface is entirely a hole. Reading a texel costs about a fiftieth of drawing a pixel, so more texels than
  * pixels may be read. A surface that blends is solid from the least threshold on. */
-NOINLINE int is_hole(const masked_surface *s, const lmb_fill_context *c, int32_t tiles)
+NOINLINE int is_surface_hole(const masked_surface *s, const lmb_fill_context *c, int32_t tiles)
 {
-    const uint32_t each = LMB_TILE_PIXELS * (s->batches ? FEW_TEXELS : TEXELS);
+    const uint32_t each = LMB_TILE_PIXELS * (s->batches ? FEW_TEXELS : MAX_TEXELS_A_TILE);
     uint32_t texels = tiles > 0 ? (uint32_t)mini(tiles, 1 << 20) * each : 0;
     lmb_resolve_alpha alpha = s->alpha;
     if (LMB_MULTISAMPLE && s->blends) {
-        alpha.cutoff = LEAST;
+        alpha.cutoff = MIN_BLEND_THRESHOLD;
     }
     return lmb_resolve_is_hole(&alpha, c->scene, &texels);
 }
@@ -314,8 +315,8 @@ void lmb_fill_masked(const lmb_fill_context *c, const lmb_setup *s, uint32_t id,
     tile_span(&tx0, &tx1, s->x_min, s->x_max, origin_x, target->x0, target->depth.width);
     tile_span(&ty0, &ty1, s->y_min, s->y_max, origin_y, target->y0, target->depth.height);
 #if LMB_TREES
-    set_job(&surface, c);
-    if (is_hole(&surface, c, (tx1 - tx0 + 1) * (ty1 - ty0 + 1))) {
+    set_masked_job(&surface, c);
+    if (is_surface_hole(&surface, c, (tx1 - tx0 + 1) * (ty1 - ty0 + 1))) {
         return;
     }
 #endif
@@ -338,7 +339,7 @@ void lmb_fill_masked(const lmb_fill_context *c, const lmb_setup *s, uint32_t id,
                     surface.y = y;
                 }
                 lmb_resolve_rays(&surface.rays, c->view, target->x0 + tx * LMB_TILE, y);
-                surface.part = tx1 > tx0 || ty1 > ty0 ? UNKNOWN : MIXED;
+                surface.part = tx1 > tx0 || ty1 > ty0 ? COVERS_UNKNOWN : COVERS_SOME;
                 fill_tile_masked(c, &tile, &job, &surface);
             }
         }

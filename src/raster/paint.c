@@ -147,7 +147,7 @@ static int set_by_uv(tangent_frame *f, const lmb_painted *p, const lmb_triangle 
     return 1;
 }
 
-static int set_frame(tangent_frame *f, const lmb_painted *p, const lmb_triangle *t, lmb_vec3 face)
+static int set_tangent_frame(tangent_frame *f, const lmb_painted *p, const lmb_triangle *t, lmb_vec3 face)
 {
     const float mirror = is_mirrored(&t->instance->to_world) ? -1.0f : 1.0f;
     const lmb_vec3 front = mul3(p->plane.plane, mirror);
@@ -216,7 +216,7 @@ static void paint_normals(lmb_tile *out, const lmb_resolve_batch *b, const lmb_s
         tangent_frame frame;
         lmb_triangle t;
         take_slot(&p, b, slot);
-        if (lmb_triangle_fetch(&t, scene, b->id[slot]) && set_frame(&frame, &p, &t, vector_of(b->face, slot))) {
+        if (lmb_triangle_fetch(&t, scene, b->id[slot]) && set_tangent_frame(&frame, &p, &t, vector_of(b->face, slot))) {
             paint_normal(out, b, &p, &frame, &scene->textures[b->material->normal_map]);
         }
     }
@@ -257,7 +257,7 @@ void lmb_painter_begin(lmb_painter *out, const lmb_scene *scene, const lmb_view 
 }
 
 /* The triangle of pixel k. Returns 0 if the id names none, which no resolved tile has. */
-static int take_pixel(lmb_painter *at, int k)
+static int take_painted_pixel(lmb_painter *at, int k)
 {
     lmb_triangle *t = &at->triangle;
     lmb_painted *p = &at->painted;
@@ -282,7 +282,7 @@ void lmb_painter_colour(float out[4], lmb_painter *at, uint32_t texture, int k)
 {
     const lmb_texture *t = &at->scene->textures[texture];
     out[0] = out[1] = out[2] = out[3] = 0.0f;
-    if (!take_pixel(at, k)) {
+    if (!take_painted_pixel(at, k)) {
         return;
     }
     lmb_texture_sample(out, t, at->tile->uv[0][k], at->tile->uv[1][k], pixel_lod(&at->painted, &at->rays, t, k));
@@ -292,7 +292,7 @@ void lmb_painter_metal(float *metallic, float *roughness, lmb_painter *at, int k
 {
     float code[4];
     *metallic = *roughness = 0.0f;
-    if (!take_pixel(at, k)) {
+    if (!take_painted_pixel(at, k)) {
         return;
     }
     const lmb_material *m = at->triangle.material;
@@ -305,7 +305,7 @@ void lmb_painter_metal(float *metallic, float *roughness, lmb_painter *at, int k
 void lmb_painter_base(float out[3], lmb_painter *at, int k)
 {
     out[0] = out[1] = out[2] = 0.0f;
-    if (!take_pixel(at, k)) {
+    if (!take_painted_pixel(at, k)) {
         return;
     }
     const lmb_triangle *t = &at->triangle;

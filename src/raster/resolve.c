@@ -26,7 +26,7 @@ void lmb_resolve_alpha_of(lmb_resolve_alpha *out, const lmb_triangle *t)
 }
 
 /* Alpha of level 0. Small builds share the code that samples colours. */
-static float alpha_of(const lmb_texture *t, float u, float v)
+static float alpha_of_texture(const lmb_texture *t, float u, float v)
 {
 #if LMB_TREES
     return lmb_texture_alpha(t, u, v);
@@ -43,8 +43,8 @@ float lmb_resolve_alpha_at(const lmb_resolve_alpha *alpha, const lmb_scene *scen
     b2 = clampf(b2, 0.0f, 1.0f - b1);
     float a = resolve_mix3(alpha->corner, b1, b2);
     if (alpha->texture >= 0) {
-        a *= alpha_of(&scene->textures[alpha->texture], resolve_mix3(alpha->u, b1, b2),
-                      resolve_mix3(alpha->v, b1, b2));
+        a *= alpha_of_texture(&scene->textures[alpha->texture], resolve_mix3(alpha->u, b1, b2),
+                              resolve_mix3(alpha->v, b1, b2));
     }
     return a;
 }
@@ -56,27 +56,28 @@ int lmb_resolve_opaque(const lmb_resolve_alpha *alpha, const lmb_scene *scene, f
 
 #if LMB_TREES /* small builds draw holes pixel by pixel */
 /* For rounding of the interpolation and of the sample's weights. */
-#define ROUNDING 1.0001f
-#define MIDDLE   (1.0f / 3.0f)
-#define NEVER    2.0f /* more than any alpha */
+#define WEIGHT_MARGIN 1.0001f
+#define MIDDLE_SHARE    (1.0f / 3.0f)
+#define ABOVE_ALL_ALPHA 2.0f /* more than any alpha */
 
 int lmb_resolve_is_hole(const lmb_resolve_alpha *a, const lmb_scene *scene, uint32_t *texels)
 {
-    const float largest = maxf(maxf(a->corner[0], a->corner[1]), a->corner[2]) * ROUNDING;
+    const float largest = maxf(maxf(a->corner[0], a->corner[1]), a->corner[2]) * WEIGHT_MARGIN;
     if (!(a->cutoff > 0.0f) || !is_sane(largest)) {
         return 0;
     }
     if (largest < a->cutoff) { /* a texture can only reduce it */
         return 1;
     }
-    if (a->texture < 0 || lmb_resolve_opaque(a, scene, MIDDLE, MIDDLE) || lmb_resolve_opaque(a, scene, 0.5f, 0.5f) ||
-        lmb_resolve_opaque(a, scene, 0.0f, 0.5f) || lmb_resolve_opaque(a, scene, 0.5f, 0.0f)) {
+    if (a->texture < 0 || lmb_resolve_opaque(a, scene, MIDDLE_SHARE, MIDDLE_SHARE) ||
+        lmb_resolve_opaque(a, scene, 0.5f, 0.5f) || lmb_resolve_opaque(a, scene, 0.0f, 0.5f) ||
+        lmb_resolve_opaque(a, scene, 0.5f, 0.0f)) {
         return 0;
     }
     const float low[2] = {minf(minf(a->u[0], a->u[1]), a->u[2]), minf(minf(a->v[0], a->v[1]), a->v[2])};
     const float high[2] = {maxf(maxf(a->u[0], a->u[1]), a->u[2]), maxf(maxf(a->v[0], a->v[1]), a->v[2])};
-    return lmb_texture_coverage(&scene->textures[a->texture], low, high, a->cutoff / (largest * ROUNDING), NEVER,
-                                texels) == LMB_COVERS_NONE;
+    return lmb_texture_coverage(&scene->textures[a->texture], low, high, a->cutoff / (largest * WEIGHT_MARGIN),
+                                ABOVE_ALL_ALPHA, texels) == LMB_COVERS_NONE;
 }
 
 /* The range of a value given at the corners, between barycentrics inside the triangle. */
@@ -91,7 +92,7 @@ static void mix_range(float *low, float *high, const float corner[3], const floa
 int lmb_resolve_coverage(const lmb_resolve_alpha *a, const lmb_scene *scene, const float low[2], const float high[2],
                          float cutoff_min, float cutoff_max, uint32_t *texels)
 {
-    const float largest = maxf(maxf(a->corner[0], a->corner[1]), a->corner[2]) * ROUNDING;
+    const float largest = maxf(maxf(a->corner[0], a->corner[1]), a->corner[2]) * WEIGHT_MARGIN;
     const float smallest = minf(minf(a->corner[0], a->corner[1]), a->corner[2]);
     float from[2], to[2], uv_low[2], uv_high[2];
     if (a->texture < 0 || !(cutoff_min > 0.0f) || !(smallest > 0.0f) || !is_sane(largest)) {
@@ -103,8 +104,8 @@ int lmb_resolve_coverage(const lmb_resolve_alpha *a, const lmb_scene *scene, con
     from[1] = minf(clampf(low[1], 0.0f, 1.0f), 1.0f - to[0]); /* lmb_resolve_opaque clamps the second to 1 - first */
     mix_range(&uv_low[0], &uv_high[0], a->u, from, to);
     mix_range(&uv_low[1], &uv_high[1], a->v, from, to);
-    return lmb_texture_coverage(&scene->textures[a->texture], uv_low, uv_high, cutoff_min / (largest * ROUNDING),
-                                cutoff_max * ROUNDING / smallest, texels);
+    return lmb_texture_coverage(&scene->textures[a->texture], uv_low, uv_high, cutoff_min / (largest * WEIGHT_MARGIN),
+                                cutoff_max * WEIGHT_MARGIN / smallest, texels);
 }
 #endif
 
@@ -255,7 +256,7 @@ static void fetch_nothing(lmb_resolve_batch *b)
 }
 
 /* Fetches all slots' triangles from the mesh. Returns the invalid ones, one bit each. */
-static uint32_t fetch(lmb_resolve_batch *b, int is_wide)
+static uint32_t fetch_batch(lmb_resolve_batch *b, int is_wide)
 {
     const lmb_mesh *m = b->mesh;
     corner_vertices vertex;
@@ -318,7 +319,7 @@ static uint64_t resolve_some(lmb_tile *out, const lmb_kernels *kernels, const lm
     b->mesh = &scene->meshes[b->instance->mesh];
     b->material = &scene->materials[b->instance->material];
     const uint64_t done = kernels->resolve_slots(b, out->id, left);
-    for (uint32_t bad = fetch(b, writes_all(kernels)); bad != 0; bad &= bad - 1) {
+    for (uint32_t bad = fetch_batch(b, writes_all(kernels)); bad != 0; bad &= bad - 1) {
         drop_slot(out, lowest_bit(bad));
     }
     kernels->resolve_setup(b);

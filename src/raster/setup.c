@@ -14,7 +14,7 @@
 /* Points on the line are inside only for top and left edges: others subtract 1 from E. */
 static int64_t fill_rule(int32_t ex, int32_t ey) { return ex > 0 || (ex == 0 && ey > 0) ? 0 : -1; }
 
-static void set_edge(lmb_setup *s, int i, const lmb_screen_vertex *from, const lmb_screen_vertex *to)
+static void set_setup_edge(lmb_setup *s, int i, const lmb_screen_vertex *from, const lmb_screen_vertex *to)
 {
     s->ex[i] = from->y_24_8 - to->y_24_8;
     s->ey[i] = to->x_24_8 - from->x_24_8;
@@ -22,8 +22,8 @@ static void set_edge(lmb_setup *s, int i, const lmb_screen_vertex *from, const l
         -(int64_t)s->ex[i] * from->x_24_8 - (int64_t)s->ey[i] * from->y_24_8 + fill_rule(s->ex[i], s->ey[i]);
 }
 
-static void set_depth(lmb_setup *s, const lmb_screen_vertex *a, const lmb_screen_vertex *b,
-                      const lmb_screen_vertex *c, int64_t area)
+static void set_depth_plane(lmb_setup *s, const lmb_screen_vertex *a, const lmb_screen_vertex *b,
+                            const lmb_screen_vertex *c, int64_t area)
 {
     double bx = b->x_24_8 - a->x_24_8, by = b->y_24_8 - a->y_24_8, cx = c->x_24_8 - a->x_24_8,
            cy = c->y_24_8 - a->y_24_8;
@@ -50,10 +50,10 @@ int lmb_setup_triangle(lmb_setup *s, const lmb_screen_vertex *a, const lmb_scree
         c = t;
         area = -area;
     }
-    set_edge(s, 0, a, b);
-    set_edge(s, 1, b, c);
-    set_edge(s, 2, c, a);
-    set_depth(s, a, b, c, area);
+    set_setup_edge(s, 0, a, b);
+    set_setup_edge(s, 1, b, c);
+    set_setup_edge(s, 2, c, a);
+    set_depth_plane(s, a, b, c, area);
     s->x_min = mini(a->x_24_8, mini(b->x_24_8, c->x_24_8));
     s->x_max = maxi(a->x_24_8, maxi(b->x_24_8, c->x_24_8));
     s->y_min = mini(a->y_24_8, mini(b->y_24_8, c->y_24_8));

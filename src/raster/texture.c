@@ -16,15 +16,15 @@ static float decode(int32_t codes, uint8_t code)
 }
 
 /* Up to four texels of a level, and their weights. */
-typedef struct footprint {
+typedef struct texel_footprint {
     texel_level from;
     int32_t x, y, count;
     float share[4]; /* upper left, upper right, lower left, lower right; nearest: the first */
-} footprint;
+} texel_footprint;
 
-static footprint find_texels(const lmb_texture *t, int32_t n, float u, float v, float weight)
+static texel_footprint find_texels(const lmb_texture *t, int32_t n, float u, float v, float weight)
 {
-    footprint f;
+    texel_footprint f;
     f.from = texel_find_level(t, n);
     const float x = texel_reduce(u, t->wrap_s) * (float)f.from.width,
                 y = texel_reduce(v, t->wrap_t) * (float)f.from.height;
@@ -64,7 +64,7 @@ static const uint8_t *find_codes(uint8_t out[4], const lmb_texture *t, const uin
 }
 #endif
 
-static void add_texels(float out[4], const lmb_texture *t, const footprint *f, int32_t codes)
+static void add_texels(float out[4], const lmb_texture *t, const texel_footprint *f, int32_t codes)
 {
     for (int k = 0; k < f->count; ++k) {
         const int32_t x = texel_wrap(f->x + (k & 1), f->from.width, t->wrap_s),
@@ -89,14 +89,20 @@ static void sample(float out[4], const lmb_texture *t, int32_t codes, float u, f
 {
     int32_t n = 0;
     float part = 0.0f;
+    if (out == NULL) {
+        return;
+    }
     out[0] = out[1] = out[2] = out[3] = 0.0f;
+    if (t == NULL || t->texels == NULL) {
+        return;
+    }
     if (t->filter == LMB_TRILINEAR && t->levels > 1 && lod > 0.0f) {
         lod = minf(lod, (float)(t->levels - 1));
         n = (int32_t)lod;
         part = lod - (float)n;
     }
     for (float weight = 1.0f - part;; weight = part, part = 0.0f, ++n) {
-        const footprint f = find_texels(t, n, u, v, weight);
+        const texel_footprint f = find_texels(t, n, u, v, weight);
         add_texels(out, t, &f, codes);
         if (!(part > 0.0f)) {
             return;
@@ -148,7 +154,7 @@ float lmb_texture_alpha(const lmb_texture *t, float u, float v)
     if (texels_are_rgba8(t)) {
         return texels_alpha(t, u, v);
     }
-    const footprint f = find_texels(t, 0, u, v, 1.0f);
+    const texel_footprint f = find_texels(t, 0, u, v, 1.0f);
     float out = 0.0f;
     for (int k = 0; k < f.count; ++k) {
         out += f.share[k] * ((float)alpha_at(t, &f.from, f.x + (k & 1), f.y + (k >> 1)) * (1.0f / 255.0f));

@@ -2,12 +2,9 @@
 #ifndef LMB_RASTER_TEXTURE_H
 #define LMB_RASTER_TEXTURE_H
 
-#include <lambent/scene.h>
+#include <lambent/lookup.h>
 
 #include "../base/vec.h"
-
-/* Linear R G B and alpha at (u, v), lod in levels (0: base; trilinear only). A non-finite coordinate reads (0, 0). */
-void lmb_texture_sample(float out[4], const lmb_texture *t, float u, float v, float lod);
 
 /* Alpha of level 0: the bytes of lmb_texture_sample, without the colours. */
 float lmb_texture_alpha(const lmb_texture *t, float u, float v);
@@ -20,9 +17,6 @@ enum { LMB_COVERS_NONE = 1, LMB_COVERS_ALL = 2 };
  * reduced by the texels that were read. */
 int lmb_texture_coverage(const lmb_texture *t, const float low[2], const float high[2], float hole, float solid,
                          uint32_t *texels);
-
-/* The same for a normal map: x y z, each -1 .. 1, not of unit length; out[3] is undefined. */
-void lmb_normal_map_sample(float out[4], const lmb_texture *t, float u, float v, float lod);
 
 /* Metalness and roughness from a metal_map's texel, which lmb_normal_map_sample reads as -1 .. 1. */
 static inline float metallic_of(const lmb_material *m, const float code[4])

@@ -30,8 +30,8 @@ const lmb_material *lmb_material_of(const lmb_scene *scene, uint32_t id)
 
 int lmb_triangle_fetch(lmb_triangle *out, const lmb_scene *scene, uint32_t id)
 {
-    const lmb_instance *instance = lmb_instance_of(scene, id);
-    return instance != NULL && triangle_of(out, scene, instance, id);
+    const lmb_instance *instance = scene != NULL ? lmb_instance_of(scene, id) : NULL;
+    return instance != NULL && out != NULL && triangle_of(out, scene, instance, id);
 }
 
 #if LMB_TREES || LMB_TRANSFER || LMB_MIXED
@@ -39,7 +39,7 @@ int lmb_triangle_shape(lmb_vec3 *normal, float *area, const lmb_triangle *t)
 {
     lmb_vec3 n;
     float longest;
-    if (!triangle_cross(&n, &longest, t)) {
+    if (normal == NULL || area == NULL || t == NULL || !triangle_cross(&n, &longest, t)) {
         return 0;
     }
     *normal = normalize3(n);
@@ -49,7 +49,7 @@ int lmb_triangle_shape(lmb_vec3 *normal, float *area, const lmb_triangle *t)
 #endif
 
 #if LMB_TREES
-static int is_inside(const lmb_triangle *t, lmb_vec3 normal, lmb_vec3 at)
+static int is_inside_triangle(const lmb_triangle *t, lmb_vec3 normal, lmb_vec3 at)
 {
     int inside = 1;
     for (int i = 0; i < 3; ++i) {
@@ -59,7 +59,7 @@ static int is_inside(const lmb_triangle *t, lmb_vec3 normal, lmb_vec3 at)
     return inside;
 }
 
-#define ROUNDING 2.3841858e-7f /* 2^-22 of the coordinates: possible rounding of a position */
+#define POSITION_ROUNDING 2.3841858e-7f /* 2^-22 of the coordinates: possible rounding of a position */
 
 /* Moves a point of a triangle's plane from outside the triangle into it: past the nearest point by as much as it was
  * outside. On an edge it would also lie in the neighbour's plane, and behind the neighbour at a silhouette. */
@@ -81,9 +81,9 @@ static lmb_vec3 into_triangle(const lmb_triangle *t, lmb_vec3 normal, lmb_vec3 a
     if (!(nearest < 3e38f && distance > 0.0f)) {
         return on;
     }
-    const float past = maxf(distance, ROUNDING * largest3(at)) / distance;
+    const float past = maxf(distance, POSITION_ROUNDING * largest3(at)) / distance;
     const lmb_vec3 in = add3(on, mul3(sub3(on, at), past));
-    return is_inside(t, normal, in) ? in : on;
+    return is_inside_triangle(t, normal, in) ? in : on;
 }
 
 lmb_vec3 lmb_place_onto_triangle(const lmb_scene *scene, uint32_t id, lmb_vec3 at)

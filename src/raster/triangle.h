@@ -2,32 +2,17 @@
 #ifndef LMB_RASTER_TRIANGLE_H
 #define LMB_RASTER_TRIANGLE_H
 
+#include <lambent/lookup.h>
 #include <lambent/raster.h>
 
 #include "../base/vec.h"
 #include "../base/vertex.h"
-
-typedef struct lmb_triangle {
-    const lmb_instance *instance;
-    const lmb_mesh *mesh;
-    const lmb_material *material;
-    uint32_t id;
-    uint32_t vertex[3]; /* of the mesh */
-    lmb_vec3 corner[3]; /* world, m */
-} lmb_triangle;
 
 /* The instance that owns an id, or NULL. Binary search: instances are numbered in order. */
 const lmb_instance *lmb_instance_of(const lmb_scene *scene, uint32_t id);
 
 /* The material of an id, or NULL: tiles hold ids that are none of the scene's, as lmb_relief_nearer leaves them. */
 const lmb_material *lmb_material_of(const lmb_scene *scene, uint32_t id);
-
-/* Unit normal of the front, and area, m2. Returns 0 if a corner is absurd or the triangle is a speck: twice the area is
- * under 1e-30 m2, for which squares are denormal. */
-int lmb_triangle_shape(lmb_vec3 *normal, float *area, const lmb_triangle *triangle);
-
-/* Returns 1, or 0 if the id names no drawable triangle. */
-int lmb_triangle_fetch(lmb_triangle *out, const lmb_scene *scene, uint32_t id);
 
 /* Moves each position of a tile that lies outside the pixel's triangle into the triangle, past the nearest point by as
  * much. Returns those pixels. Rasterization snaps corners, so near an edge a pixel may show a triangle that its ray

@@ -12,18 +12,18 @@
 #if LMB_RELIEF
 
 #define NEAR_BY 4.0f  /* max depth difference of two pixels on one surface, in pixel sides */
-#define EDGE_ON 0.05f /* cosine to the ray below which a plane gives no depth */
+#define MIN_RAY_COSINE 0.05f /* cosine to the ray below which a plane gives no depth */
 
-enum { PASSES = 3 }; /* a corrected pixel can correct the next one */
+enum { MAX_MEND_PASSES = 3 }; /* a corrected pixel can correct the next one */
 
 /* The neighbours of a pixel that lie in the tile. */
-typedef struct around {
+typedef struct mend_around {
     lmb_vec3 origin, along; /* ray of the middle pixel, from the eye; `along` goes 1 m along the axis */
     float same;             /* m of depth */
     float depth[8];         /* m, of the neighbour's plane at that ray */
     int at[8];
     int hits;               /* neighbours with a surface; they come first */
-} around;
+} mend_around;
 
 typedef struct mender {
     lmb_tile *tile;
@@ -36,7 +36,7 @@ static lmb_vec3 get(float (*planes)[LMB_TILE_PIXELS], int k)
     return vec3(planes[0][k], planes[1][k], planes[2][k]);
 }
 
-static void put(float (*planes)[LMB_TILE_PIXELS], int k, lmb_vec3 v)
+static void put_tile_place(float (*planes)[LMB_TILE_PIXELS], int k, lmb_vec3 v)
 {
     planes[0][k] = v.x;
     planes[1][k] = v.y;
@@ -53,14 +53,14 @@ uint64_t lmb_relief_beside(int k)
 
 /* Depth at which the plane of pixel k meets the ray. If the plane is nearly parallel to the ray: the depth of pixel
  * k. */
-static float depth_at(const mender *m, const around *a, int k)
+static float depth_at_neighbour(const mender *m, const mend_around *a, int k)
 {
     const lmb_vec3 to = sub3(sub3(get(m->tile->position, k), m->job->eye), a->origin), n = get(m->tile->normal, k);
     const float along = dot3(n, a->along), own = m->tile->depth[k];
-    return along < -EDGE_ON ? clampf(dot3(n, to) / along, own - a->same, own + a->same) : own;
+    return along < -MIN_RAY_COSINE ? clampf(dot3(n, to) / along, own - a->same, own + a->same) : own;
 }
 
-static void look_around(around *out, const mender *m, uint64_t shown, int k)
+static void look_around(mend_around *out, const mender *m, uint64_t shown, int k)
 {
     const lmb_rays *r = &m->rays;
     const float x = (float)(k % LMB_TILE), y = (float)(k / LMB_TILE);
@@ -71,12 +71,12 @@ static void look_around(around *out, const mender *m, uint64_t shown, int k)
         const int at = lowest_bit_64(bits);
         out->same = NEAR_BY * m->job->pixel * (m->job->perspective ? m->tile->depth[at] : 1.0f);
         out->at[out->hits] = at;
-        out->depth[out->hits++] = depth_at(m, out, at);
+        out->depth[out->hits++] = depth_at_neighbour(m, out, at);
     }
 }
 
 /* Counts the neighbours with a surface at a depth. */
-static int agree(const around *a, float depth)
+static int agree(const mend_around *a, float depth)
 {
     int n = 0;
     for (int i = 0; i < a->hits; ++i) {
@@ -86,7 +86,7 @@ static int agree(const around *a, float depth)
 }
 
 /* Counts the neighbours that share the most common surface. */
-static int most_agree(const around *a)
+static int most_agree(const mend_around *a)
 {
     int max = 0;
     for (int i = 0; i < a->hits; ++i) {
@@ -96,7 +96,7 @@ static int most_agree(const around *a)
 }
 
 /* Sets pixel k to the mean of the largest group of neighbours that agree. */
-static void take_surface(const mender *m, const around *a, int k)
+static void take_surface(const mender *m, const mend_around *a, int k)
 {
     lmb_tile *t = m->tile;
     lmb_vec3 normal = vec3(0.0f, 0.0f, 0.0f), albedo = normal;
@@ -115,10 +115,10 @@ static void take_surface(const mender *m, const around *a, int k)
     }
     depth = depth / n;
     normal = normalize3(normal);
-    put(t->position, k, add3(m->job->eye, add3(a->origin, mul3(a->along, depth))));
-    put(t->face, k, normal);
-    put(t->normal, k, normal);
-    put(t->albedo, k, mul3(albedo, 1.0f / n));
+    put_tile_place(t->position, k, add3(m->job->eye, add3(a->origin, mul3(a->along, depth))));
+    put_tile_place(t->face, k, normal);
+    put_tile_place(t->normal, k, normal);
+    put_tile_place(t->albedo, k, mul3(albedo, 1.0f / n));
     t->depth[k] = depth;
     t->id[k] = t->id[a->at[best]];
 }
@@ -159,7 +159,7 @@ static uint64_t showing(const lmb_tile *t, uint64_t missed)
 static int mend_all(mender *m, lmb_relief_found *found, uint64_t inside)
 {
     const uint64_t hit = found->hit, all = showing(m->tile, found->missed);
-    around a;
+    mend_around a;
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         const uint64_t own = (uint64_t)1 << k, beside = lmb_relief_beside(k) & inside, shown = beside & hit;
         const uint64_t known = (all & own) != 0 ? shown : beside & all;
@@ -189,11 +189,11 @@ void lmb_relief_mend(lmb_tile *inout, lmb_relief_found *found, const lmb_relief_
 {
     const uint64_t inside = in_picture(inout, view);
     mender m;
-    int pass = found->hit != 0 ? 0 : PASSES;
+    int pass = found->hit != 0 ? 0 : MAX_MEND_PASSES;
     m.tile = inout;
     m.job = job;
     lmb_resolve_rays(&m.rays, view, inout->x, inout->y);
-    while (pass < PASSES && mend_all(&m, found, inside)) {
+    while (pass < MAX_MEND_PASSES && mend_all(&m, found, inside)) {
         ++pass;
     }
 }

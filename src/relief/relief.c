@@ -8,32 +8,46 @@
 
 #if LMB_RELIEF
 
-enum { MAGIC, ORDER, SIZE, FORMAT, VIEWS, RECORDS, VERTICES, TRIANGLES, POSITIONS, NORMALS, COLOURS, INDICES,
-       INDEX_FORMAT, NONE }; /* header words; the last one is the tool's checksum */
+enum {
+    RELIEF_MAGIC,
+    RELIEF_ORDER,
+    RELIEF_SIZE,
+    FORMAT,
+    VIEWS,
+    RECORDS,
+    VERTICES,
+    TRIANGLES,
+    POSITIONS,
+    NORMALS,
+    COLOURS,
+    INDICES,
+    INDEX_FORMAT,
+    RELIEF_RESERVED
+};                                                 /* header words; the last one is the tool's checksum */
 enum { V_KIND = 16, V_WIDTH, V_HEIGHT, V_TEXELS }; /* words of a view's record, after its 16 floats */
 enum { HEADER_BYTES = 4 * LMB_RELIEF_HEADER_WORDS, VIEW_BYTES = 4 * LMB_RELIEF_VIEW_WORDS, MAX_SIDE = 4096 };
 
-#define OWN_ORDER   0x01020304u
+#define RELIEF_OWN_ORDER 0x01020304u
 #define OTHER_ORDER 0x04030201u
-#define MAX_COUNT   0x0fffffffu /* limit of vertices and triangles: products with them fit 64 bits */
+#define MAX_RELIEF_COUNT 0x0fffffffu /* limit of vertices and triangles: products with them fit 64 bits */
 
 /* A file that is being checked. */
-typedef struct source {
+typedef struct relief_source {
     const uint8_t *data;
     uint64_t bytes;
     int swapped; /* the numbers are in the other byte order */
-} source;
+} relief_source;
 
 static uint32_t turned(uint32_t v) { return v >> 24 | (v >> 8 & 0xff00u) | (v << 8 & 0xff0000u) | v << 24; }
 
-static uint32_t word_at(const source *s, uint64_t at)
+static uint32_t word_at(const relief_source *s, uint64_t at)
 {
     uint32_t v;
     memcpy(&v, s->data + at, sizeof v);
     return s->swapped ? turned(v) : v;
 }
 
-static float float_at(const source *s, uint64_t at)
+static float float_at(const relief_source *s, uint64_t at)
 {
     const uint32_t bits = word_at(s, at);
     float v;
@@ -41,32 +55,32 @@ static float float_at(const source *s, uint64_t at)
     return v;
 }
 
-static uint32_t header(const source *s, int word) { return word_at(s, 4u * (uint64_t)word); }
+static uint32_t header(const relief_source *s, int word) { return word_at(s, 4u * (uint64_t)word); }
 
 /* Do `size` bytes at offset `at` lie inside the file? */
-static int holds(const source *s, uint64_t at, uint64_t size)
+static int holds_bytes(const relief_source *s, uint64_t at, uint64_t size)
 {
     return at % 4 == 0 && at >= HEADER_BYTES && at <= s->bytes && size <= s->bytes - at;
 }
 
-static int holds_array(const source *s, int word, uint64_t count, uint64_t size)
+static int holds_array(const relief_source *s, int word, uint64_t count, uint64_t size)
 {
-    return holds(s, header(s, word), count * size);
+    return holds_bytes(s, header(s, word), count * size);
 }
 
 /* --- views -------------------------------------------------------------------------------------------------------- */
 
-static uint64_t texel_bytes(uint32_t format, uint64_t texels)
+static uint64_t relief_texel_bytes(uint32_t format, uint64_t texels)
 {
     return format == LMB_RELIEF_FULL ? 12 * texels : 4 * texels + (texels + 1) / 2 * 4;
 }
 
-static lmb_vec3 vec_at(const source *s, uint64_t at)
+static lmb_vec3 vec_at(const relief_source *s, uint64_t at)
 {
     return vec3(float_at(s, at), float_at(s, at + 4), float_at(s, at + 8));
 }
 
-static lmb_view view_at(const source *s, uint64_t at)
+static lmb_view view_at(const relief_source *s, uint64_t at)
 {
     lmb_view v;
     v.eye = vec_at(s, at);
@@ -87,7 +101,7 @@ static lmb_view view_at(const source *s, uint64_t at)
 /* Within these limits, products of a view's lengths neither overflow nor underflow. */
 static int is_length(float v) { return v > 1e-9f && v < 1048576.0f; }
 
-static int is_view(const source *s, const lmb_view *v, uint64_t at)
+static int is_relief_view(const relief_source *s, const lmb_view *v, uint64_t at)
 {
     const int sides = v->frame_width >= 2 && v->frame_width <= MAX_SIDE && v->frame_height >= 2 &&
                       v->frame_height <= MAX_SIDE;
@@ -95,12 +109,12 @@ static int is_view(const source *s, const lmb_view *v, uint64_t at)
            is_length(v->half_width) && is_length(v->half_height) && is_length(v->near_m) && is_length(v->far_m) &&
            v->far_m > v->near_m && absf(dot3(v->right, v->up)) < 0.01f && absf(dot3(v->right, v->back)) < 0.01f &&
            absf(dot3(v->up, v->back)) < 0.01f &&
-           holds(s, word_at(s, at + 4 * V_TEXELS),
-                 texel_bytes(header(s, FORMAT), (uint64_t)v->frame_width * (uint64_t)v->frame_height));
+           holds_bytes(s, word_at(s, at + 4 * V_TEXELS),
+                       relief_texel_bytes(header(s, FORMAT), (uint64_t)v->frame_width * (uint64_t)v->frame_height));
 }
 
 /* Sets the row of a matrix that computes scale * axis . (p - eye) + rest * w. */
-static void set_row(float row[4], lmb_vec3 axis, float scale, lmb_vec3 eye)
+static void set_view_row(float row[4], lmb_vec3 axis, float scale, lmb_vec3 eye)
 {
     const lmb_vec3 a = mul3(axis, scale);
     row[0] = a.x;
@@ -109,14 +123,14 @@ static void set_row(float row[4], lmb_vec3 axis, float scale, lmb_vec3 eye)
     row[3] = -dot3(a, eye);
 }
 
-static void set_rows(lmb_relief_view *out, const lmb_view *v)
+static void set_view_rows(lmb_relief_view *out, const lmb_view *v)
 {
     const float w = (float)v->frame_width, h = (float)v->frame_height;
     const float mid_u = 0.5f * (w - 1.0f), mid_v = 0.5f * (h - 1.0f);
-    set_row(out->to_view[0], v->right, 0.5f * w / v->half_width, v->eye);
-    set_row(out->to_view[1], v->up, -0.5f * h / v->half_height, v->eye);
+    set_view_row(out->to_view[0], v->right, 0.5f * w / v->half_width, v->eye);
+    set_view_row(out->to_view[1], v->up, -0.5f * h / v->half_height, v->eye);
     if (v->kind == LMB_PERSPECTIVE) {
-        set_row(out->to_view[3], v->back, -1.0f, v->eye);
+        set_view_row(out->to_view[3], v->back, -1.0f, v->eye);
         for (int i = 0; i < 4; ++i) {
             out->to_view[0][i] += mid_u * out->to_view[3][i];
             out->to_view[1][i] += mid_v * out->to_view[3][i];
@@ -124,7 +138,7 @@ static void set_rows(lmb_relief_view *out, const lmb_view *v)
         }
     } else {
         const float per_m = 1.0f / (v->far_m - v->near_m);
-        set_row(out->to_view[2], v->back, per_m, v->eye);
+        set_view_row(out->to_view[2], v->back, per_m, v->eye);
         out->to_view[0][3] += mid_u;
         out->to_view[1][3] += mid_v;
         out->to_view[2][3] += v->far_m * per_m;
@@ -140,7 +154,7 @@ static void set_view(lmb_relief_view *out, const lmb_view *v, uint32_t format)
     const float wide = 2.0f * v->half_width / (float)v->frame_width,
                 high = 2.0f * v->half_height / (float)v->frame_height;
     const int perspective = v->kind == LMB_PERSPECTIVE;
-    set_rows(out, v);
+    set_view_rows(out, v);
     out->width = v->frame_width;
     out->height = v->frame_height;
     out->perspective = perspective;
@@ -160,13 +174,14 @@ static void set_view(lmb_relief_view *out, const lmb_view *v, uint32_t format)
 
 /* --- the whole ---------------------------------------------------------------------------------------------------- */
 
-static lmb_status check_header(const source *s)
+static lmb_status check_header(const relief_source *s)
 {
     const uint32_t format = header(s, FORMAT), views = header(s, VIEWS), index = header(s, INDEX_FORMAT),
                    vertices = header(s, VERTICES), triangles = header(s, TRIANGLES);
-    if (header(s, SIZE) > s->bytes || (format != LMB_RELIEF_FULL && format != LMB_RELIEF_PACKED) || views == 0 ||
-        vertices > MAX_COUNT || triangles > MAX_COUNT || (index != LMB_INDEX_U16 && index != LMB_INDEX_U32) ||
-        (header(s, NONE) | header(s, NONE + 1)) != 0) {
+    if (header(s, RELIEF_SIZE) > s->bytes || (format != LMB_RELIEF_FULL && format != LMB_RELIEF_PACKED) || views == 0 ||
+        vertices > MAX_RELIEF_COUNT || triangles > MAX_RELIEF_COUNT ||
+        (index != LMB_INDEX_U16 && index != LMB_INDEX_U32) ||
+        (header(s, RELIEF_RESERVED) | header(s, RELIEF_RESERVED + 1)) != 0) {
         return LMB_ERR_FORMAT;
     }
     if (!holds_array(s, POSITIONS, vertices, 12) || !holds_array(s, NORMALS, vertices, 4) ||
@@ -178,17 +193,17 @@ static lmb_status check_header(const source *s)
     return LMB_OK;
 }
 
-typedef struct range {
+typedef struct file_range {
     uint64_t at, bytes;
-} range;
+} file_range;
 
 enum { ARRAYS = 5 }; /* besides the texels of the views */
 
 /* Byte range of array i, or of the texels of view i - ARRAYS. */
-static range range_of(const source *s, uint32_t i)
+static file_range range_of(const relief_source *s, uint32_t i)
 {
     const uint64_t vertices = header(s, VERTICES), corners = 3 * (uint64_t)header(s, TRIANGLES);
-    range r = {0, 0};
+    file_range r = {0, 0};
     switch (i) {
     case 0: r.at = header(s, RECORDS), r.bytes = (uint64_t)header(s, VIEWS) * VIEW_BYTES; break;
     case 1: r.at = header(s, POSITIONS), r.bytes = 12 * vertices; break;
@@ -199,24 +214,24 @@ static range range_of(const source *s, uint32_t i)
         const uint64_t record = header(s, RECORDS) + (uint64_t)(i - ARRAYS) * VIEW_BYTES;
         const uint64_t width = word_at(s, record + 4 * V_WIDTH), height = word_at(s, record + 4 * V_HEIGHT);
         r.at = word_at(s, record + 4 * V_TEXELS);
-        r.bytes = texel_bytes(header(s, FORMAT), width * height);
+        r.bytes = relief_texel_bytes(header(s, FORMAT), width * height);
     }
     }
     return r;
 }
 
-static int overlaps(range a, range b)
+static int overlaps(file_range a, file_range b)
 {
     return a.bytes > 0 && b.bytes > 0 && a.at < b.at + b.bytes && b.at < a.at + a.bytes;
 }
 
 /* Are all arrays disjoint? Views are compared with each other only if lmb_relief_open accepts that many, so that the
  * time stays linear in the file size. */
-static int are_apart(const source *s)
+static int are_apart(const relief_source *s)
 {
     const uint32_t views = header(s, VIEWS), all = ARRAYS + views;
     for (uint32_t i = 1; i < all; ++i) {
-        const range own = range_of(s, i);
+        const file_range own = range_of(s, i);
         const uint32_t past = i < ARRAYS || views <= LMB_RELIEF_VIEWS ? i : ARRAYS;
         for (uint32_t k = 0; k < past; ++k) {
             if (overlaps(own, range_of(s, k))) {
@@ -228,7 +243,7 @@ static int are_apart(const source *s)
 }
 
 /* Checks each offset and each number, in either byte order. */
-static lmb_status check_file(source *s, const void *data, size_t bytes)
+static lmb_status check_file(relief_source *s, const void *data, size_t bytes)
 {
     if (data == NULL) {
         return LMB_ERR_ARG;
@@ -242,9 +257,9 @@ static lmb_status check_file(source *s, const void *data, size_t bytes)
     if (bytes < HEADER_BYTES || memcmp(data, "LMR\1", 4) != 0) {
         return LMB_ERR_FORMAT;
     }
-    const uint32_t order = header(s, ORDER);
+    const uint32_t order = header(s, RELIEF_ORDER);
     s->swapped = order == OTHER_ORDER;
-    if (order != OWN_ORDER && order != OTHER_ORDER) {
+    if (order != RELIEF_OWN_ORDER && order != OTHER_ORDER) {
         return LMB_ERR_FORMAT;
     }
     if (check_header(s) != LMB_OK) {
@@ -253,14 +268,14 @@ static lmb_status check_file(source *s, const void *data, size_t bytes)
     for (uint32_t i = 0; i < header(s, VIEWS); ++i) {
         const uint64_t at = header(s, RECORDS) + (uint64_t)i * VIEW_BYTES;
         const lmb_view v = view_at(s, at);
-        if (!is_view(s, &v, at)) {
+        if (!is_relief_view(s, &v, at)) {
             return LMB_ERR_FORMAT;
         }
     }
     return are_apart(s) ? LMB_OK : LMB_ERR_FORMAT;
 }
 
-static void set_mesh(lmb_mesh *m, const source *s)
+static void set_mesh(lmb_mesh *m, const relief_source *s)
 {
     memset(m, 0, sizeof *m);
     m->positions = s->data + header(s, POSITIONS);
@@ -272,7 +287,7 @@ static void set_mesh(lmb_mesh *m, const source *s)
     m->index_format = (uint8_t)header(s, INDEX_FORMAT);
 }
 
-static void set_look(lmb_relief *out)
+static void set_relief_look(lmb_relief *out)
 {
     memset(&out->material, 0, sizeof out->material);
     memset(&out->instance, 0, sizeof out->instance);
@@ -289,7 +304,7 @@ static void set_look(lmb_relief *out)
 
 lmb_status lmb_relief_open(lmb_relief *out, const void *data, size_t bytes)
 {
-    source s;
+    relief_source s;
     lmb_scene scene;
     if (out == NULL) {
         return LMB_ERR_ARG;
@@ -311,7 +326,7 @@ lmb_status lmb_relief_open(lmb_relief *out, const void *data, size_t bytes)
         out->view[i].texels = s.data + word_at(&s, at + 4 * V_TEXELS);
     }
     set_mesh(&out->mesh, &s);
-    set_look(out);
+    set_relief_look(out);
     lmb_relief_scene(&scene, out);
     lmb_scene_bounds(&out->low, &out->high, &scene);
     return LMB_OK;
@@ -336,7 +351,7 @@ void lmb_relief_scene(lmb_scene *out, const lmb_relief *relief)
 
 /* --- the other byte order ----------------------------------------------------------------------------------------- */
 
-static void turn(uint8_t *p, uint64_t count, int size)
+static void turn_bytes(uint8_t *p, uint64_t count, int size)
 {
     for (uint64_t i = 0; i < count; ++i) {
         for (int a = 0, b = size - 1; a < b; ++a, --b) {
@@ -351,18 +366,18 @@ static void turn(uint8_t *p, uint64_t count, int size)
 /* Sections do not overlap, so each byte is swapped once. */
 lmb_status lmb_relief_swap(void *data, size_t bytes)
 {
-    source s;
+    relief_source s;
     const lmb_status status = check_file(&s, data, bytes);
     if (status != LMB_OK || !s.swapped) {
         return status;
     }
     uint8_t *p = (uint8_t *)data;
     const uint64_t vertices = header(&s, VERTICES), corners = 3 * (uint64_t)header(&s, TRIANGLES);
-    turn(p + header(&s, POSITIONS), 3 * vertices, 4);
-    turn(p + header(&s, NORMALS), 2 * vertices, 2);
-    turn(p + header(&s, INDICES), corners, header(&s, INDEX_FORMAT) == LMB_INDEX_U16 ? 2 : 4);
-    turn(p + header(&s, RECORDS), (uint64_t)header(&s, VIEWS) * LMB_RELIEF_VIEW_WORDS, 4);
-    turn(p + 4, LMB_RELIEF_HEADER_WORDS - 1, 4);
+    turn_bytes(p + header(&s, POSITIONS), 3 * vertices, 4);
+    turn_bytes(p + header(&s, NORMALS), 2 * vertices, 2);
+    turn_bytes(p + header(&s, INDICES), corners, header(&s, INDEX_FORMAT) == LMB_INDEX_U16 ? 2 : 4);
+    turn_bytes(p + header(&s, RECORDS), (uint64_t)header(&s, VIEWS) * LMB_RELIEF_VIEW_WORDS, 4);
+    turn_bytes(p + 4, LMB_RELIEF_HEADER_WORDS - 1, 4);
     return check_file(&s, data, bytes);
 }
 

@@ -14,9 +14,9 @@
 
 #if LMB_RELIEF
 
-#define SLACK   1.0f  /* max texels of a lit receiver behind the surface in the map */
-#define STEEP   4.0f  /* max texels by which a receiver's plane is extrapolated */
-#define EDGE_ON 1e-3f
+#define MAX_BEHIND_TEXELS 1.0f /* max texels of a lit receiver behind the surface in the map */
+#define MAX_SLOPE_TEXELS  4.0f /* max texels by which a receiver's plane is extrapolated */
+#define MIN_PLANE_COSINE  1e-3f
 
 /* --- the map ------------------------------------------------------------------------------------------------------ */
 
@@ -89,7 +89,7 @@ typedef struct receiver {
     lmb_vec3 at, plane; /* m; unit */
 } receiver;
 
-static int32_t choose_face(const lmb_shadow_map *map, lmb_vec3 d)
+static int32_t choose_relief_face(const lmb_shadow_map *map, lmb_vec3 d)
 {
     const lmb_vec3 a = vec3(absf(d.x), absf(d.y), absf(d.z));
     if (map->faces == 1) {
@@ -107,7 +107,7 @@ static int find_receiver(receiver *r, const lmb_shadow_map *map, const lmb_light
     r->at = vec3(tile->position[0][k], tile->position[1][k], tile->position[2][k]);
     r->plane = vec3(tile->face[0][k], tile->face[1][k], tile->face[2][k]);
     const int32_t f = light_kind_is(light->kind, LIGHT_FAR) ? lmb_shadow_map_part(map, r->at)
-                                                          : choose_face(map, sub3(r->at, light->position));
+                                                            : choose_relief_face(map, sub3(r->at, light->position));
     const lmb_view *v = r->view = &map->view[f];
     const lmb_vec3 d = sub3(r->at, v->eye);
     const float size = (float)map->size;
@@ -135,8 +135,8 @@ static float plane_depth(const receiver *r, int32_t x, int32_t y)
     const int perspective = v->kind == LMB_PERSPECTIVE;
     const lmb_vec3 from = perspective ? v->eye : add3(v->eye, across),
                    ray = perspective ? sub3(across, v->back) : mul3(v->back, -1.0f);
-    const float slope = dot3(r->plane, ray), max = STEEP * r->texel;
-    if (absf(slope) < EDGE_ON) {
+    const float slope = dot3(r->plane, ray), max = MAX_SLOPE_TEXELS * r->texel;
+    if (absf(slope) < MIN_PLANE_COSINE) {
         return r->w;
     }
     return clampf(dot3(r->plane, sub3(r->at, from)) / slope, r->w - max, r->w + max);
@@ -148,10 +148,10 @@ static int texel_lit(const receiver *r, int32_t x, int32_t y)
     y = mini(maxi(y, 0), r->size - 1);
     const lmb_fill_tile t = lmb_target_tile(r->face, x / LMB_TILE, y / LMB_TILE);
     const float d = ((const float *)t.depth)[y % LMB_TILE * t.depth_step + x % LMB_TILE];
-    return d == 0.0f || lmb_depth_view_z(r->view, d) >= plane_depth(r, x, y) - SLACK * r->texel;
+    return d == 0.0f || lmb_depth_view_z(r->view, d) >= plane_depth(r, x, y) - MAX_BEHIND_TEXELS * r->texel;
 }
 
-static int is_lit(const receiver *r)
+static int is_receiver_lit(const receiver *r)
 {
     const float fx = r->x - 0.5f, fy = r->y - 0.5f, x0 = floorf(fx), y0 = floorf(fy), u = fx - x0, v = fy - y0;
     const float weight[4] = {(1.0f - u) * (1.0f - v), u * (1.0f - v), (1.0f - u) * v, u * v};
@@ -184,7 +184,7 @@ uint64_t lmb_relief_lit(const lmb_shadow_map *map, const lmb_light *light, const
     const int is_given = map != NULL && light != NULL && tile != NULL;
     for (int k = 0; is_given && k < LMB_TILE_PIXELS; ++k) {
         shown |= (uint64_t)(tile->id[k] != 0) << k;
-        if (tile->id[k] != 0 && (!find_receiver(&r, map, light, tile, k) || is_lit(&r))) {
+        if (tile->id[k] != 0 && (!find_receiver(&r, map, light, tile, k) || is_receiver_lit(&r))) {
             out |= (uint64_t)1 << k;
         }
     }

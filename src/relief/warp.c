@@ -11,28 +11,28 @@
 
 #if LMB_RELIEF
 
-enum { STEPS = 6, MAX_STEPS = 32, LOOKS = 6, KEEP = 3 };
+enum { DEFAULT_WARP_STEPS = 6, MAX_WARP_STEPS = 32, DEFAULT_LOOKED_VIEWS = 6, DEFAULT_KEPT_VIEWS = 3 };
 
 static int in_range(int32_t v, int32_t max) { return v >= 0 && v <= max; }
 
 static int is_how(const lmb_relief_how *h)
 {
-    return in_range(h->steps, MAX_STEPS) && in_range(h->pick, LMB_RELIEF_EYE_RAY) && in_range(h->sampling, 1) &&
-           in_range(h->views, LMB_RELIEF_TILE_VIEWS) && in_range(h->keep, KEEP);
+    return in_range(h->steps, MAX_WARP_STEPS) && in_range(h->pick, LMB_RELIEF_EYE_RAY) && in_range(h->sampling, 1) &&
+           in_range(h->views, LMB_RELIEF_TILE_VIEWS) && in_range(h->keep, DEFAULT_KEPT_VIEWS);
 }
 
 /* Sets all fields except the views. If texels are drawn as they are, only one view is kept. */
-static void set_job(lmb_relief_job *job, const lmb_relief *relief, const lmb_view *view, const lmb_relief_how *how)
+static void set_warp_job(lmb_relief_job *job, const lmb_relief *relief, const lmb_view *view, const lmb_relief_how *how)
 {
     const float wide = 2.0f * view->half_width / (float)view->frame_width,
                 high = 2.0f * view->half_height / (float)view->frame_height;
     job->count = job->outside = 0;
     job->format = relief->format;
-    job->steps = how->steps != 0 ? how->steps : STEPS;
+    job->steps = how->steps != 0 ? how->steps : DEFAULT_WARP_STEPS;
     job->pick = how->pick;
     job->sampling = how->sampling;
     job->as_is = job->steps == 1 || job->sampling;
-    job->keep = job->as_is ? 1 : how->keep != 0 ? how->keep : KEEP;
+    job->keep = job->as_is ? 1 : how->keep != 0 ? how->keep : DEFAULT_KEPT_VIEWS;
     job->eye = view->eye;
     job->back = view->back;
     job->perspective = view->kind == LMB_PERSPECTIVE;
@@ -127,8 +127,8 @@ lmb_status lmb_relief_tile(lmb_tile *inout, const lmb_kernels *kernels, const lm
     if (inout->hits == 0) {
         return LMB_OK;
     }
-    set_job(&job, relief, view, how);
-    choose_views(&job, inout, kernels, relief, how->views != 0 ? how->views : LOOKS);
+    set_warp_job(&job, relief, view, how);
+    choose_views(&job, inout, kernels, relief, how->views != 0 ? how->views : DEFAULT_LOOKED_VIEWS);
     for (int32_t i = 0; i < job.count; ++i) {
         job.outside |= !job.view[i]->perspective;
     }
@@ -151,7 +151,7 @@ lmb_status lmb_relief_tile(lmb_tile *inout, const lmb_kernels *kernels, const lm
     return LMB_OK;
 }
 
-static void take_pixel(lmb_tile *t, const lmb_tile *from, int k)
+static void take_warped_pixel(lmb_tile *t, const lmb_tile *from, int k)
 {
     for (int c = 0; c < 3; ++c) {
         t->position[c][k] = from->position[c][k];
@@ -170,7 +170,7 @@ void lmb_relief_nearer(lmb_tile *inout, const lmb_tile *other)
 {
     for (int k = 0; inout != NULL && other != NULL && k < LMB_TILE_PIXELS; ++k) {
         if (other->id[k] != 0 && (inout->id[k] == 0 || other->depth[k] < inout->depth[k])) {
-            take_pixel(inout, other, k);
+            take_warped_pixel(inout, other, k);
         }
     }
 }

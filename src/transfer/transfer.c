@@ -6,16 +6,24 @@
 #include "../base/vec.h"
 #include "../raster/triangle.h"
 #include "halvings.h"
-#include "sections.h"
 
 #if LMB_TRANSFER
 
 /* Header words. */
-enum { MAGIC, ORDER, SIZE, SCENE, LEAVES = 5, COUNTS, RESERVED = COUNTS + LMB_TRANSFER_SECTIONS };
+enum {
+    TRANSFER_MAGIC,
+    TRANSFER_ORDER,
+    TRANSFER_SIZE,
+    SCENE,
+    LEAVES = 5,
+    COUNTS,
+    TRANSFER_RESERVED = COUNTS + LMB_TRANSFER_SECTIONS
+};
 
-#define OWN_ORDER 0x01020304u
+#define TRANSFER_OWN_ORDER 0x01020304u
 #define LOW_BITS  ((1u << LMB_TRANSFER_EDGE_BIT) - 1u)
-#define MAX_COUNT 0x10000000u /* entries of a section: products fit 64 bits, indices fit the bits of a halving */
+/* entries of a section: products fit 64 bits, indices fit the bits of a halving */
+#define MAX_SECTION_ENTRIES 0x10000000u
 
 static float as_float(uint32_t word)
 {
@@ -103,14 +111,14 @@ static int take_range(uint32_t *left, uint32_t first, uint32_t count, uint32_t a
     return is_range;
 }
 
-static uint32_t size_of(uint32_t code) { return code & 0x8000u ? 0x10000u - code : code; }
+static uint32_t size_of_coarse(uint32_t code) { return code & 0x8000u ? 0x10000u - code : code; }
 
 static int are_links(const lmb_transfer *t, int section, uint32_t first, uint32_t count)
 {
     uint32_t sum = 0;
     for (uint32_t i = first; i < first + count; ++i) {
         const uint32_t link = t->section[section][i];
-        sum += size_of(link >> 16);
+        sum += size_of_coarse(link >> 16);
         if ((link & 0xffffu) >= t->nodes || sum > LMB_TRANSFER_MAX_SUM) {
             return 0;
         }
@@ -139,9 +147,9 @@ static int are_cluster_links(const lmb_transfer *t, uint32_t first, uint32_t cou
     uint32_t sum[3] = {0, 0, 0};
     for (uint32_t i = first; i < first + count; ++i) {
         const uint32_t *link = t->section[LMB_TRANSFER_CLUSTER_LINKS] + LMB_TRANSFER_CLUSTER_LINK_WORDS * (size_t)i;
-        sum[0] += size_of(link[0] >> 16);
-        sum[1] += size_of(link[1] & 0xffffu);
-        sum[2] += size_of(link[1] >> 16);
+        sum[0] += size_of_coarse(link[0] >> 16);
+        sum[1] += size_of_coarse(link[1] & 0xffffu);
+        sum[2] += size_of_coarse(link[1] >> 16);
         if ((link[0] & 0xffffu) >= t->nodes || sum[0] > LMB_TRANSFER_MAX_SUM || sum[1] > LMB_TRANSFER_MAX_SUM ||
             sum[2] > LMB_TRANSFER_MAX_SUM) {
             return 0;
@@ -246,7 +254,7 @@ static int is_air(const lmb_transfer *t)
 /* --- the file ----------------------------------------------------------------------------------------------------- */
 
 /* Counts elements and their means by fours, up to the root; 0 if `elements` is not a power of 4. */
-static uint32_t nodes_of(uint32_t elements)
+static uint32_t nodes_of_elements(uint32_t elements)
 {
     uint32_t nodes = 1, level = 1;
     while (level < elements && level < LMB_TRANSFER_MAX_ELEMENTS) {
@@ -266,16 +274,17 @@ static int are_zeros(const uint32_t *word, int count)
 }
 
 /* Sets the positions of sections. Returns 0 if the word count does not match. */
-static int lay_out(lmb_transfer *out, const uint32_t *word, uint64_t words)
+static int lay_out_sections(lmb_transfer *out, const uint32_t *word, uint64_t words)
 {
+    static const uint8_t words_each[LMB_TRANSFER_SECTIONS] = LMB_TRANSFER_WORDS_EACH;
     uint64_t at = LMB_TRANSFER_HEADER_WORDS;
     for (int s = 0; s < LMB_TRANSFER_SECTIONS; ++s) {
         out->count[s] = word[COUNTS + s];
         out->section[s] = word + at;
-        if (out->count[s] >= MAX_COUNT || (uint64_t)out->count[s] * transfer_words_each[s] > words - at) {
+        if (out->count[s] >= MAX_SECTION_ENTRIES || (uint64_t)out->count[s] * words_each[s] > words - at) {
             return 0;
         }
-        at += (uint64_t)out->count[s] * transfer_words_each[s];
+        at += (uint64_t)out->count[s] * words_each[s];
     }
     return at == words;
 }
@@ -292,15 +301,16 @@ lmb_status lmb_transfer_open(lmb_transfer *out, const void *data, size_t bytes)
         return LMB_ERR_ALIGN;
     }
     if (bytes < 4 * LMB_TRANSFER_HEADER_WORDS || memcmp(data, "LMT", 3) != 0 ||
-        ((const uint8_t *)data)[3] != LMB_TRANSFER_VERSION || word[ORDER] != OWN_ORDER || word[SIZE] != bytes ||
-        bytes % 4 != 0 || !are_zeros(word + RESERVED, LMB_TRANSFER_HEADER_WORDS - 1 - RESERVED) ||
-        !lay_out(&t, word, bytes / 4)) {
+        ((const uint8_t *)data)[3] != LMB_TRANSFER_VERSION || word[TRANSFER_ORDER] != TRANSFER_OWN_ORDER ||
+        word[TRANSFER_SIZE] != bytes || bytes % 4 != 0 ||
+        !are_zeros(word + TRANSFER_RESERVED, LMB_TRANSFER_HEADER_WORDS - 1 - TRANSFER_RESERVED) ||
+        !lay_out_sections(&t, word, bytes / 4)) {
         return LMB_ERR_FORMAT;
     }
     t.scene[0] = word[SCENE];
     t.scene[1] = word[SCENE + 1];
     t.leaves = word[LEAVES];
-    t.nodes = nodes_of(t.count[LMB_TRANSFER_AREAS]);
+    t.nodes = nodes_of_elements(t.count[LMB_TRANSFER_AREAS]);
     if (t.nodes == 0 || t.count[LMB_TRANSFER_CLUSTERS] > LMB_TRANSFER_MAX_CLUSTERS || !are_surfaces(&t) ||
         !are_areas(&t) || !are_corners(&t) || !are_receivers(&t) ||
         !are_clusters(&t) || !are_blends(&t) || !are_coarse(&t) || !are_moving(&t) || !is_air(&t) ||

@@ -12,7 +12,7 @@
 
 #if LMB_TRANSFER
 
-#define BEHIND 0.02f /* this factor straight behind the face: it counts if no point is in front */
+#define BEHIND_SHARE 0.02f /* this factor straight behind the face: it counts if no point is in front */
 
 int lmb_transfer_moves(const lmb_transfer *t, uint32_t id)
 {
@@ -54,7 +54,7 @@ static float weight_before(const uint32_t *grid, const uint32_t place[3], lmb_ve
                                   low[2] + (float)place[2] * step), at);
     const float length = length3(to), cosine = length > 0.0f ? dot3(to, face) / length : 1.0f;
     const float before = 0.5f * cosine + 0.5f;
-    return before * before + BEHIND;
+    return before * before + BEHIND_SHARE;
 }
 
 /* Adds the light for a normal, from the six receivers starting at `first`. */

@@ -16,9 +16,9 @@
 
 #if LMB_TRANSFER
 
-#define WHOLE 16777216.0f /* 2^24: max light of a block, and the limit of exact integers in binary32 */
+#define MAX_BLOCK_LIGHT 16777216.0f /* 2^24: max light of a block, and the limit of exact integers in binary32 */
 
-enum { VISITS = 8192 }; /* halvings per triangle of a tile; beyond, light descends undivided */
+enum { MAX_TRIANGLE_VISITS = 8192 }; /* halvings per triangle of a tile; beyond, light descends undivided */
 #define WALL_REACH 2.5f /* blocks from a wall within which light goes to the sides that cells show */
 
 /* State of a collection. */
@@ -136,7 +136,7 @@ static const uint8_t *ids_at(const collection *c, int32_t x, int32_t y)
 }
 
 /* A texel in a cell's row or column; clamped to the face. */
-static int32_t texel_of(const collection *c, int32_t cell)
+static int32_t texel_of_cell(const collection *c, int32_t cell)
 {
     return maxi(mini(cell, c->size / c->step - 1), 0) * c->step + c->step / 2;
 }
@@ -151,8 +151,8 @@ static uint32_t id_in(const collection *c, const uint8_t *eight, int32_t i)
 /* Id at the middle of a block's cell. */
 static uint32_t cell_id(const collection *c, int32_t x, int32_t y, int32_t column, int32_t row)
 {
-    const int32_t at = texel_of(c, (c->first[0] + x) * c->cells + column);
-    return id_in(c, ids_at(c, at, texel_of(c, (c->first[1] + y) * c->cells + row)), at % LMB_TILE);
+    const int32_t at = texel_of_cell(c, (c->first[0] + x) * c->cells + column);
+    return id_in(c, ids_at(c, at, texel_of_cell(c, (c->first[1] + y) * c->cells + row)), at % LMB_TILE);
 }
 
 /* --- a triangle's light on the way down the halvings -------------------------------------------------------------- */
@@ -166,7 +166,7 @@ static void add_light(const collection *c, uint32_t element, int32_t sum)
 }
 
 /* Enters a half. The kept corner's function loses the moved corner's; the moved corner's is doubled. */
-static void enter_half(lmb_transfer_part *p, const transfer_halving *h, int second)
+static void enter_lit_half(lmb_transfer_part *p, const transfer_halving *h, int second)
 {
     const transfer_half half = half_of(h, second);
     for (int k = 0; k < 3; ++k) {
@@ -226,7 +226,7 @@ static void part_at_wall(const collection *c, lmb_transfer_part *p, uint32_t id,
 }
 
 /* Continues with one half, or with both, and then the second waits. Returns the number of parts. */
-static int32_t halve(const collection *c, int32_t parts, uint32_t id, uint32_t node, int can_part)
+static int32_t halve_parts(const collection *c, int32_t parts, uint32_t id, uint32_t node, int can_part)
 {
     lmb_transfer_part *p = &c->light->part[parts - 1];
     const transfer_halving h = halving_of(c->transfer, node);
@@ -237,7 +237,7 @@ static int32_t halve(const collection *c, int32_t parts, uint32_t id, uint32_t n
     }
     const float by = absf(line[1]) + absf(line[2]), middle = value(line, 3.5f, 3.5f);
     if (!can_part || parts == LMB_TRANSFER_PARTS || !(absf(middle) < reach * by) || !(by < 1e30f)) {
-        enter_half(p, &h, middle < 0.0f);
+        enter_lit_half(p, &h, middle < 0.0f);
         return parts;
     }
     for (int k = 0; k < 3; ++k) {
@@ -252,8 +252,8 @@ static int32_t halve(const collection *c, int32_t parts, uint32_t id, uint32_t n
     if (p[1].rows != 0 && p->rows != 0) {
         memcpy(p[1].corner, p->corner, sizeof p->corner);
         p[1].depth = p->depth;
-        enter_half(p, &h, 1);
-        enter_half(p + 1, &h, 0);
+        enter_lit_half(p, &h, 1);
+        enter_lit_half(p + 1, &h, 0);
         return parts + 1;
     }
     const int is_second = p->rows != 0;
@@ -261,11 +261,11 @@ static int32_t halve(const collection *c, int32_t parts, uint32_t id, uint32_t n
         memcpy(p->light, p[1].light, sizeof p->light);
         p->rows = p[1].rows;
     }
-    enter_half(p, &h, is_second);
+    enter_lit_half(p, &h, is_second);
     return parts;
 }
 
-static int32_t sum_of(const lmb_transfer_part *p)
+static int32_t sum_of_blocks(const lmb_transfer_part *p)
 {
     int32_t sum = 0;
     for (int y = 0; y < LMB_TILE; ++y) {
@@ -287,18 +287,18 @@ static void collect_parts(const collection *c, uint32_t id)
         const lmb_transfer_part *p = &c->light->part[parts - 1];
         const uint32_t word = node[p->at];
         if ((word & LMB_TRANSFER_LEAF) != 0) {
-            add_light(c, word & ~LMB_TRANSFER_LEAF, sum_of(p));
+            add_light(c, word & ~LMB_TRANSFER_LEAF, sum_of_blocks(p));
             --parts;
         } else if (p->depth == LMB_TRANSFER_MAX_HALVINGS) {
             --parts;
         } else {
-            parts = halve(c, parts, id, word, visits < VISITS);
+            parts = halve_parts(c, parts, id, word, visits < MAX_TRIANGLE_VISITS);
         }
     }
 }
 
 /* A triangle's functions in blocks of the current tile. */
-static void set_corners(float corner[3][3], const collection *c, const lmb_transfer_shown *s)
+static void set_shown_corners(float corner[3][3], const collection *c, const lmb_transfer_shown *s)
 {
     const float cells = (float)c->cells;
     /* Middle of the first block, in cells. */
@@ -369,11 +369,11 @@ static lmb_transfer_sharer *sharer_of(const collection *c, uint32_t id)
     memset(to, 0, sizeof *to);
     to->id = id;
     to->root = s->root;
-    set_corners(to->corner, c, s);
+    set_shown_corners(to->corner, c, s);
     return to;
 }
 
-static void add_share(const collection *c, uint32_t id, int block, float share)
+static void add_block_share(const collection *c, uint32_t id, int block, float share)
 {
     if (share > 0.0f) {
         lmb_transfer_sharer *to = sharer_of(c, id);
@@ -470,12 +470,12 @@ static void read_eight(const collection *c, int32_t first, int32_t y, const uint
 }
 
 /* Reads a row of the tile's blocks, or a row beside the tile. */
-NOINLINE void read_row(const collection *c, int32_t y)
+NOINLINE void read_map_row(const collection *c, int32_t y)
 {
     const int32_t each = c->cells * c->step, blocks = LMB_TILE % each == 0 ? LMB_TILE / each : 1;
     const uint8_t *row[LMB_TRANSFER_CELLS];
     for (int32_t i = 0; i < c->cells; ++i) {
-        row[i] = ids_at(c, 0, texel_of(c, (c->first[1] + y) * c->cells + i));
+        row[i] = ids_at(c, 0, texel_of_cell(c, (c->first[1] + y) * c->cells + i));
     }
     for (int32_t x = -blocks; x <= LMB_TILE; x += blocks) {
         const int32_t eight = (c->first[0] + x) * each / LMB_TILE;
@@ -508,7 +508,7 @@ static void share_by_ids(const collection *c, int32_t x, int32_t y)
     const float each = 1.0f / (float)(c->cells * c->cells);
     for (int32_t i = 0; i < c->cells; ++i) {
         for (int32_t k = 0; k < c->cells; ++k) {
-            add_share(c, cell_id(c, x, y, k, i), LMB_TILE * y + x, each);
+            add_block_share(c, cell_id(c, x, y, k, i), LMB_TILE * y + x, each);
         }
     }
 }
@@ -568,7 +568,7 @@ static void share_by_outlines(const collection *c, int32_t x, int32_t y, const l
         }
     }
     for (int32_t i = 0; i < of->count; ++i) {
-        add_share(c, of->id[i], LMB_TILE * y + x, sum[i] * each);
+        add_block_share(c, of->id[i], LMB_TILE * y + x, sum[i] * each);
     }
 }
 
@@ -588,7 +588,7 @@ static void share_block(const collection *c, int32_t x, int32_t y)
 {
     lmb_transfer_several of;
     if (is_of_one(c, x, y)) {
-        add_share(c, *block_id(c, x, y), LMB_TILE * y + x, 1.0f);
+        add_block_share(c, *block_id(c, x, y), LMB_TILE * y + x, 1.0f);
         return;
     }
     block_shows(&of, c, x, y);
@@ -630,7 +630,7 @@ NOINLINE int read_powers(const collection *c)
         }
     }
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        power[k] = minf(power[k] * c->scale, WHOLE);
+        power[k] = minf(power[k] * c->scale, MAX_BLOCK_LIGHT);
         is_any |= power[k] >= 1.0f;
     }
     return is_any;
@@ -648,14 +648,14 @@ static void share_all(const collection *c, uint32_t id)
 
 /* Shares a row of blocks when the row below is known. Rows with a single triangle wait until the end, because the
  * triangle may own the whole tile. */
-static void collect_tile(const collection *c)
+static void collect_map_tile(const collection *c)
 {
     int is_one = 1;
     if (!read_powers(c)) {
         return;
     }
     for (int32_t y = -1, next = 0; y <= LMB_TILE; ++y) {
-        read_row(c, y);
+        read_map_row(c, y);
         is_one = is_one && is_row_of(c, y, *block_id(c, -1, -1));
         for (; !is_one && next < y; ++next) {
             share_row(c, next);
@@ -705,7 +705,7 @@ lmb_status lmb_transfer_collect(const lmb_transfer_light *light, const lmb_kerne
                     map->size,
                     cells,
                     each / cells,
-                    WHOLE / (side_x * side_y),
+                    MAX_BLOCK_LIGHT / (side_x * side_y),
                     {0, 0}};
     memset(c.work->shown, 0, sizeof c.work->shown);
     memset(c.work->outline, 0, sizeof c.work->outline);
@@ -716,7 +716,7 @@ lmb_status lmb_transfer_collect(const lmb_transfer_light *light, const lmb_kerne
         }
         c.first[1] = y / LMB_TILE * LMB_TILE;
         for (c.first[0] = 0; c.first[0] < blocks.size; c.first[0] += LMB_TILE) {
-            collect_tile(&c);
+            collect_map_tile(&c);
         }
     }
     memset(&scratch->met, 0, sizeof scratch->met);

@@ -79,7 +79,8 @@ lmb_status lmb_transfer_clear(lmb_transfer_light *light, const lmb_transfer *t)
 
 /* --- nodes -> receivers ------------------------------------------------------------------------------------------- */
 
-static void receive(const lmb_transfer_light *light, const lmb_kernels *kernels, const lmb_transfer *t, uint32_t i)
+static void receive_links(const lmb_transfer_light *light, const lmb_kernels *kernels, const lmb_transfer *t,
+                          uint32_t i)
 {
     const uint32_t *r = t->section[LMB_TRANSFER_RECEIVERS] + LMB_TRANSFER_RECEIVER_WORDS * (size_t)i;
     const float scale = link_scale(r[4], light->step);
@@ -118,7 +119,7 @@ lmb_status lmb_transfer_receivers(const lmb_transfer_light *light, const lmb_ker
     }
     for (uint32_t i = first; i < past; ++i) {
         if (i < receivers) {
-            receive(light, kernels, t, i);
+            receive_links(light, kernels, t, i);
         } else {
             receive_cluster(light, kernels, t, i - receivers);
         }

@@ -9,8 +9,8 @@
 #if LMB_TRANSFER && LMB_TREES
 
 /* Fills a tile with the elements, up to a tile's worth, that have a place. number[k]: the element of pixel k. */
-static void set_tile(lmb_tile *tile, uint32_t number[LMB_TILE_PIXELS], const lmb_transfer_light *light, uint32_t first,
-                     uint32_t past)
+static void set_element_tile(lmb_tile *tile, uint32_t number[LMB_TILE_PIXELS], const lmb_transfer_light *light,
+                             uint32_t first, uint32_t past)
 {
     memset(tile, 0, sizeof *tile);
     for (uint32_t i = first; i < past; ++i) {
@@ -32,12 +32,13 @@ static void set_tile(lmb_tile *tile, uint32_t number[LMB_TILE_PIXELS], const lmb
     }
 }
 
-static lmb_status light_tile(const lmb_transfer_light *light, const lmb_transfer *t, const lmb_element_scratch *own,
-                             lmb_many_lights_scratch *scratch, const lmb_many_lights_query *query, uint32_t first)
+static lmb_status light_element_tile(const lmb_transfer_light *light, const lmb_transfer *t,
+                                     const lmb_element_scratch *own, lmb_many_lights_scratch *scratch,
+                                     const lmb_many_lights_query *query, uint32_t first)
 {
     const uint32_t left = t->count[LMB_TRANSFER_AREAS] - first;
     uint32_t number[LMB_TILE_PIXELS];
-    set_tile(own->tile, number, light, first, first + (left < LMB_TILE_PIXELS ? left : LMB_TILE_PIXELS));
+    set_element_tile(own->tile, number, light, first, first + (left < LMB_TILE_PIXELS ? left : LMB_TILE_PIXELS));
     if (own->tile->hits == 0) {
         return LMB_OK;
     }
@@ -66,7 +67,7 @@ lmb_status lmb_transfer_many_lights(const lmb_transfer_light *light, const lmb_e
     lmb_many_lights_query own = *query;
     own.each = 1; /* elements along a curve have no corner pixels */
     for (int32_t i = first; i < past && status == LMB_OK; ++i) {
-        status = light_tile(light, t, own_scratch, scratch, &own, (uint32_t)i * LMB_TILE_PIXELS);
+        status = light_element_tile(light, t, own_scratch, scratch, &own, (uint32_t)i * LMB_TILE_PIXELS);
     }
     return status;
 }

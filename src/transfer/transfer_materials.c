@@ -9,16 +9,16 @@
 
 #if LMB_TRANSFER
 
-enum { WAITING = LMB_TRANSFER_MAX_HALVINGS + 1 }; /* pending second halves */
+enum { MAX_WAITING_HALVES = LMB_TRANSFER_MAX_HALVINGS + 1 }; /* pending second halves */
 
 /* A part of a triangle: barycentrics of the corners, and share of the area. */
-typedef struct part {
+typedef struct material_part {
     float b1[3], b2[3], share;
     uint32_t node;
-} part;
+} material_part;
 
 /* Corner k of the half moves to the point that divides the edge. */
-static void enter_half(part *p, const transfer_halving *h, int second)
+static void enter_piece_half(material_part *p, const transfer_halving *h, int second)
 {
     const int from = h->from, to = halving_to(from), k = second ? from : to;
     const float rest = 1.0f - h->part;
@@ -30,7 +30,7 @@ static void enter_half(part *p, const transfer_halving *h, int second)
 }
 
 /* Adds area-weighted sums to light->albedo and emission, and areas to light->power[..][0]. */
-static void add_part(const lmb_transfer_light *light, const piece_source *s, const part *p, uint32_t element)
+static void add_part(const lmb_transfer_light *light, const piece_source *s, const material_part *p, uint32_t element)
 {
     surface_piece piece;
     float albedo[3], emission[3];
@@ -47,7 +47,7 @@ static void add_part(const lmb_transfer_light *light, const piece_source *s, con
 }
 
 /* The largest part sets an element's position; ties go to the first. */
-static void set_place(lmb_transfer_place *out, const piece_source *s, const part *p, float side)
+static void set_place(lmb_transfer_place *out, const piece_source *s, const material_part *p, float side)
 {
     const lmb_vec3 *corner = s->triangle.corner;
     const float third = 1.0f / 3.0f;
@@ -62,23 +62,23 @@ static void set_place(lmb_transfer_place *out, const piece_source *s, const part
 
 /* Adds all parts below a root; pending halves lie in `stack`. `left`: remaining visits over all roots. In damaged files
  * halves may share children, and then the number of paths explodes. */
-static void add_parts(const lmb_transfer_light *light, const lmb_transfer *t, const piece_source *s, int back,
-                      uint32_t root, uint32_t *left)
+static void add_piece_parts(const lmb_transfer_light *light, const lmb_transfer *t, const piece_source *s, int back,
+                            uint32_t root, uint32_t *left)
 {
     const uint32_t *node = t->section[LMB_TRANSFER_PIECES];
-    part stack[WAITING];
+    material_part stack[MAX_WAITING_HALVES];
     int count = 1;
     memset(&stack[0], 0, sizeof stack[0]);
     stack[0].b1[1] = stack[0].b2[2] = stack[0].share = 1.0f;
     stack[0].node = root;
     while (count > 0 && *left > 0) {
-        part here = stack[--count];
+        material_part here = stack[--count];
         --*left;
-        while ((node[here.node] & LMB_TRANSFER_LEAF) == 0 && count < WAITING) {
+        while ((node[here.node] & LMB_TRANSFER_LEAF) == 0 && count < MAX_WAITING_HALVES) {
             const transfer_halving h = halving_of(t, node[here.node]);
             stack[count] = here;
-            enter_half(&stack[count++], &h, 1);
-            enter_half(&here, &h, 0);
+            enter_piece_half(&stack[count++], &h, 1);
+            enter_piece_half(&here, &h, 0);
         }
         if (node[here.node] & LMB_TRANSFER_LEAF) {
             const uint32_t element = node[here.node] & ~LMB_TRANSFER_LEAF;
@@ -90,7 +90,7 @@ static void add_parts(const lmb_transfer_light *light, const lmb_transfer *t, co
     }
 }
 
-static float area_of(const lmb_transfer *t, uint32_t element)
+static float area_of_element(const lmb_transfer *t, uint32_t element)
 {
     float area;
     memcpy(&area, t->section[LMB_TRANSFER_AREAS] + element, sizeof area);
@@ -101,7 +101,7 @@ static float area_of(const lmb_transfer *t, uint32_t element)
 static void end_means(const lmb_transfer_light *light, const lmb_transfer *t)
 {
     for (uint32_t i = 0; i < t->count[LMB_TRANSFER_AREAS]; ++i) {
-        const float per = light->power[i][0] > 0.0f ? 1.0f / light->power[i][0] : 0.0f, area = area_of(t, i);
+        const float per = light->power[i][0] > 0.0f ? 1.0f / light->power[i][0] : 0.0f, area = area_of_element(t, i);
         for (int c = 0; c < 3; ++c) {
             light->albedo[i][c] = minf(light->albedo[i][c] * per, 1.0f);
             light->emission[i][c] = area > 0.0f ? minf(LMB_PI * light->emission[i][c] / area, 1e30f) : 0.0f;
@@ -118,7 +118,7 @@ static void set_coarse(const lmb_transfer_light *light, const lmb_transfer *t)
         const uint32_t past =
             i + 1 < count ? first[LMB_TRANSFER_COARSE_WORDS * (size_t)(i + 1)] : t->count[LMB_TRANSFER_AREAS];
         for (; e < past; ++e) {
-            const float area = area_of(t, e);
+            const float area = area_of_element(t, e);
             coarse->area += area;
             for (int c = 0; c < 3; ++c) {
                 coarse->albedo[c] += light->albedo[e][c] * area;
@@ -151,7 +151,7 @@ lmb_status lmb_transfer_materials(const lmb_transfer_light *light, const lmb_tra
         const int exists = lmb_source_open(&s, scene, id);
         for (int back = 0; back < 2 && exists; ++back) {
             if (root[back] != LMB_TRANSFER_NONE) {
-                add_parts(light, t, &s, back, root[back], &left);
+                add_piece_parts(light, t, &s, back, root[back], &left);
             }
         }
     }

@@ -8,7 +8,7 @@
 
 #if LMB_TRANSFER
 
-enum { LEVELS = 8 }; /* 4^7 elements */
+enum { MAX_SENT_LEVELS = 8 }; /* 4^7 elements */
 enum { SEND_ALL = LMB_TRANSFER_SEND_RECEIVED + 1 };
 
 /* --- light that an element sends ---------------------------------------------------------------------------------- */
@@ -22,7 +22,7 @@ typedef struct cursor {
 } cursor;
 
 /* First element of a coarse element; past the last: the number of elements. */
-static uint32_t first_of(const lmb_transfer *t, uint32_t coarse)
+static uint32_t first_of_coarse(const lmb_transfer *t, uint32_t coarse)
 {
     return coarse < t->count[LMB_TRANSFER_COARSE]
                ? t->section[LMB_TRANSFER_COARSE][LMB_TRANSFER_COARSE_WORDS * (size_t)coarse]
@@ -31,7 +31,7 @@ static uint32_t first_of(const lmb_transfer *t, uint32_t coarse)
 
 static cursor cursor_at(const lmb_transfer_light *light, const lmb_transfer *t, int what, uint32_t coarse)
 {
-    const cursor w = {light, t, what, coarse, first_of(t, coarse + 1)};
+    const cursor w = {light, t, what, coarse, first_of_coarse(t, coarse + 1)};
     return w;
 }
 
@@ -46,7 +46,7 @@ static float element_sent(float sent[3], cursor *w, uint32_t i)
     memcpy(&area, w->t->section[LMB_TRANSFER_AREAS] + i, sizeof area);
     if (w->t->count[LMB_TRANSFER_COARSE] > 0) {
         if (i == w->past) {
-            w->past = first_of(w->t, ++w->coarse + 1);
+            w->past = first_of_coarse(w->t, ++w->coarse + 1);
         }
         coarse = &light->coarse[w->coarse];
     }
@@ -65,7 +65,7 @@ static float element_sent(float sent[3], cursor *w, uint32_t i)
 /* --- nodes -------------------------------------------------------------------------------------------------------- */
 
 /* In a damaged file, means of areas near 1e30 m2 may overflow binary32. */
-static void put_node(lmb_transfer_light *light, uint32_t node, const float sent[3], float per)
+static void put_sent_node(lmb_transfer_light *light, uint32_t node, const float sent[3], float per)
 {
     for (int c = 0; c < 3; ++c) {
         light->node[node][c] = (uint16_t)clampf(sent[c] * per + 0.5f, 0.0f, 65535.0f);
@@ -81,19 +81,19 @@ typedef struct level_sum {
 /* Nodes are stored level by level: first the elements, then groups of four. */
 static void put_nodes(lmb_transfer_light *light, const lmb_transfer *t, int what, float per)
 {
-    level_sum level[LEVELS];
-    uint32_t next[LEVELS], of = t->count[LMB_TRANSFER_AREAS], at = 0;
+    level_sum level[MAX_SENT_LEVELS];
+    uint32_t next[MAX_SENT_LEVELS], of = t->count[LMB_TRANSFER_AREAS], at = 0;
     cursor w = cursor_at(light, t, what, 0);
     memset(level, 0, sizeof level);
-    for (int l = 0; l < LEVELS; ++l) {
+    for (int l = 0; l < MAX_SENT_LEVELS; ++l) {
         next[l] = at;
         at += of;
         of /= 4;
     }
     for (uint32_t i = 0; i < t->count[LMB_TRANSFER_AREAS]; ++i) {
         float sent[3], area = element_sent(sent, &w, i);
-        put_node(light, i, sent, per);
-        for (int l = 1; l < LEVELS && next[l] < t->nodes; ++l) {
+        put_sent_node(light, i, sent, per);
+        for (int l = 1; l < MAX_SENT_LEVELS && next[l] < t->nodes; ++l) {
             level_sum *s = &level[l];
             for (int c = 0; c < 3; ++c) {
                 s->sent[c] += sent[c] * area;
@@ -106,7 +106,7 @@ static void put_nodes(lmb_transfer_light *light, const lmb_transfer *t, int what
                 sent[c] = s->area > 0.0f ? s->sent[c] / s->area : 0.0f;
             }
             area = s->area;
-            put_node(light, next[l]++, sent, per);
+            put_sent_node(light, next[l]++, sent, per);
             memset(s, 0, sizeof *s);
         }
     }
@@ -137,11 +137,11 @@ lmb_status lmb_transfer_send(lmb_transfer_light *light, const lmb_transfer *t)
 /* --- between elements, and coarse ones ---------------------------------------------------------------------------- */
 
 /* Area-weighted mean of the light that the elements of a coarse element send. */
-static void set_sent(lmb_transfer_light *light, const lmb_transfer *t, uint32_t i, int what)
+static void set_element_sent(lmb_transfer_light *light, const lmb_transfer *t, uint32_t i, int what)
 {
     float sum[3] = {0.0f, 0.0f, 0.0f}, sent[3] = {0.0f, 0.0f, 0.0f};
     cursor w = cursor_at(light, t, what, i);
-    for (uint32_t e = first_of(t, i), past = w.past; e < past; ++e) {
+    for (uint32_t e = first_of_coarse(t, i), past = w.past; e < past; ++e) {
         const float area = element_sent(sent, &w, e);
         for (int c = 0; c < 3; ++c) {
             sum[c] += area * sent[c];
@@ -153,7 +153,7 @@ static void set_sent(lmb_transfer_light *light, const lmb_transfer *t, uint32_t 
     }
 }
 
-static void receive(lmb_transfer_light *light, const lmb_transfer *t, uint32_t i)
+static void receive_coarse(lmb_transfer_light *light, const lmb_transfer *t, uint32_t i)
 {
     const uint32_t *own = t->section[LMB_TRANSFER_COARSE] + LMB_TRANSFER_COARSE_WORDS * (size_t)i;
     const uint32_t *link = t->section[LMB_TRANSFER_COARSE_LINKS] + own[1];
@@ -179,11 +179,11 @@ lmb_status lmb_transfer_bounce(lmb_transfer_light *light, const lmb_transfer *t,
         return LMB_ERR_ARG;
     }
     for (uint32_t i = 0; i < t->count[LMB_TRANSFER_COARSE]; ++i) {
-        set_sent(light, t, i, what);
+        set_element_sent(light, t, i, what);
     }
     send(light, t, what);
     for (uint32_t i = 0; i < t->count[LMB_TRANSFER_COARSE]; ++i) {
-        receive(light, t, i);
+        receive_coarse(light, t, i);
     }
     return LMB_OK;
 }
@@ -192,7 +192,7 @@ lmb_status lmb_transfer_bounce(lmb_transfer_light *light, const lmb_transfer *t,
  * B' / sum of A B' B. It weights each place by the light still there, because light that left into the open does not
  * represent the rest. If lights send to few places, B' lies elsewhere than B; then the ratio is the sum of all B' over
  * the sum of all B. */
-static float kept_of(const lmb_transfer_light *light, uint32_t count, int what, int channel)
+static float kept_by_coarse(const lmb_transfer_light *light, uint32_t count, int what, int channel)
 {
     float kept = 0.0f, before = 0.0f;
     for (uint32_t i = 0; i < count; ++i) {
@@ -211,7 +211,7 @@ lmb_status lmb_transfer_rest(lmb_transfer_light *light, const lmb_transfer *t, i
         return LMB_ERR_ARG;
     }
     for (int c = 0; c < 3; ++c) {
-        const float kept = kept_of(light, t->count[LMB_TRANSFER_COARSE], what, c);
+        const float kept = kept_by_coarse(light, t->count[LMB_TRANSFER_COARSE], what, c);
         float more = 0.0f;
         for (int32_t i = 0; i < bounces; ++i) {
             more = (more + 1.0f) * kept;

@@ -13,7 +13,8 @@
 
 /* --- corners ------------------------------------------------------------------------------------------------------ */
 
-static void set_corners(lmb_transfer_leaf *leaf, const lmb_transfer_light *light, const lmb_transfer *t, uint32_t place)
+static void set_leaf_corners(lmb_transfer_leaf *leaf, const lmb_transfer_light *light, const lmb_transfer *t,
+                             uint32_t place)
 {
     const uint32_t *corner = t->section[LMB_TRANSFER_CORNERS] + LMB_TRANSFER_CORNER_WORDS * (size_t)place;
     leaf->is_directed = place >= t->leaves;
@@ -33,7 +34,7 @@ static float weight_at(const float w[3], float b1, float b2) { return w[0] + w[1
 
 /* Enters the half that contains a point. The kept corner on the halved edge loses the other corner's weight, which is
  * doubled because that corner is now the middle of the edge. All these numbers are whole, except in cuts. */
-static void enter_half(lmb_transfer_step *s, const transfer_halving *h, float b1, float b2)
+static void enter_pixel_half(lmb_transfer_step *s, const transfer_halving *h, float b1, float b2)
 {
     const int from = h->from, to = halving_to(from), other = 3 - from - to;
     float more[3];
@@ -91,7 +92,7 @@ static uint32_t enter_leaf(lmb_transfer_met *s, const lmb_transfer *t, uint32_t 
     for (; i < LMB_TRANSFER_MAX_HALVINGS && (word & LMB_TRANSFER_LEAF) == 0; ++i) {
         const transfer_halving h = halving_of(t, word);
         const uint32_t *half = node + h.first, first = half[0], second = half[1];
-        enter_half(&s->step[i], &h, b1, b2);
+        enter_pixel_half(&s->step[i], &h, b1, b2);
         if (!are_weights(&s->step[i + 1])) {
             break;
         }
@@ -114,7 +115,7 @@ typedef struct job {
 } job;
 
 /* Lights one side of a triangle leaf by leaf: the leaf of the first remaining pixel lights all pixels on it. */
-static void light_side(lmb_irradiance *inout, const job *j, uint32_t root, uint64_t pixels)
+static void light_tile_side(lmb_irradiance *inout, const job *j, uint32_t root, uint64_t pixels)
 {
     lmb_transfer_met *s = j->met;
     lmb_transfer_leaf leaf;
@@ -125,7 +126,7 @@ static void light_side(lmb_irradiance *inout, const job *j, uint32_t root, uint6
         uint64_t own = (uint64_t)1 << first;
         if (place != LMB_TRANSFER_NONE) {
             leaf.weight = (const float(*)[3])s->step[s->depth].weight;
-            set_corners(&leaf, j->light, j->transfer, place);
+            set_leaf_corners(&leaf, j->light, j->transfer, place);
             own = j->kernels->transfer_leaf(inout, j->glossy, s->weight, j->tile, pixels, &leaf);
         }
         pixels &= ~own;
@@ -151,7 +152,7 @@ static uint64_t light_first(lmb_irradiance *inout, const job *j, const lmb_scene
     const uint32_t root =
         j->transfer->section[LMB_TRANSFER_SURFACES][LMB_TRANSFER_SURFACE_WORDS * (size_t)(id - 1) + 2 + back];
     if (root != LMB_TRANSFER_NONE) {
-        light_side(inout, j, root, own);
+        light_tile_side(inout, j, root, own);
     }
     return own;
 }

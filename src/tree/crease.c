@@ -15,23 +15,24 @@
 
 #if LMB_TREES
 
-#define STEEP 0.25f /* share of 1 / w at the centre: if a corner has less, the plane runs away from the light */
+/* share of 1 / w at the centre: if a corner has less, the plane runs away from the light */
+#define MIN_CORNER_SHARE 0.25f
 
 /* A point of the map, in the plane at distance 1 (m for suns). */
-typedef struct place {
+typedef struct crease_place {
     float x, y;
-} place;
+} crease_place;
 
-static place middle_of(const lmb_view *v, int32_t size, int32_t x, int32_t y)
+static crease_place middle_of(const lmb_view *v, int32_t size, int32_t x, int32_t y)
 {
-    place out;
+    crease_place out;
     out.x = (float)(2 * x + 1 - size) / (float)size * v->half_width;
     out.y = (float)(size - 2 * y - 1) / (float)size * v->half_height;
     return out;
 }
 
 /* Shared by the slopes of all planes over one point: a ray of the map, or for suns the offset across it. */
-static inline lmb_vec3 ray_at(const lmb_view *v, place s)
+static inline lmb_vec3 ray_at(const lmb_view *v, crease_place s)
 {
     const lmb_vec3 across = add3(mul3(v->right, s.x), mul3(v->up, s.y));
     return v->kind == LMB_PERSPECTIVE ? sub3(across, v->back) : across;
@@ -46,7 +47,7 @@ static inline float slope_along(const lmb_view *v, const lmb_texel *t, lmb_vec3 
 }
 
 /* Difference of these between planes a and b: how far a is in front of b, over a point of the map. */
-static inline float before_at(const lmb_view *v, const lmb_texel *a, const lmb_texel *b, place s)
+static inline float before_at(const lmb_view *v, const lmb_texel *a, const lmb_texel *b, crease_place s)
 {
     const lmb_vec3 ray = ray_at(v, s);
     return slope_along(v, a, ray) - slope_along(v, b, ray);
@@ -61,13 +62,13 @@ static int same_plane(const lmb_texel *a, const lmb_texel *b)
 /* --- sides -------------------------------------------------------------------------------------------------------- */
 
 /* Two neighbours and their centres. */
-typedef struct pair {
+typedef struct crease_pair {
     lmb_texel *a, *b;
-    place from, to;
-} pair;
+    crease_place from, to;
+} crease_pair;
 
 /* Line where the two planes meet, as a share of the way from a to b; 0: not between the centres. */
-static float planes_meet(const lmb_view *v, const pair *p)
+static float planes_meet(const lmb_view *v, const crease_pair *p)
 {
     const float here = before_at(v, p->a, p->b, p->from), there = before_at(v, p->a, p->b, p->to);
     const float share = here / (here - there);
@@ -76,7 +77,7 @@ static float planes_meet(const lmb_view *v, const pair *p)
 
 /* Extends texel a towards b up to their common edge, and b towards a. Extents are rounded so that no gap remains
  * between the two, and so that neither looks like a whole texel. A texel with facets keeps the whole cell. */
-static void set_edge(const lmb_view *v, const pair *p, int a_side, int b_side)
+static void set_crease_edge(const lmb_view *v, const crease_pair *p, int a_side, int b_side)
 {
     const int several = facets_are_several(p->a) || facets_are_several(p->b);
     const float share = several || same_plane(p->a, p->b) ? 0.0f : planes_meet(v, p);
@@ -95,7 +96,7 @@ void lmb_crease_find(const lmb_tree *tree, uint32_t face)
     lmb_texel *all = tree->texel + (size_t)face * (size_t)size * (size_t)size;
     for (int32_t i = 0; i < size * size; ++i) {
         const int32_t x = i % size, y = i / size;
-        pair p;
+        crease_pair p;
         p.a = &all[i];
         if (!(flux_sum(p.a->flux) > 0.0f)) {
             continue;
@@ -104,12 +105,12 @@ void lmb_crease_find(const lmb_tree *tree, uint32_t face)
         if (x + 1 < size && flux_sum(p.a[1].flux) > 0.0f) {
             p.b = p.a + 1;
             p.to = middle_of(v, size, x + 1, y);
-            set_edge(v, &p, SIDE_RIGHT, SIDE_LEFT);
+            set_crease_edge(v, &p, SIDE_RIGHT, SIDE_LEFT);
         }
         if (y + 1 < size && flux_sum(p.a[size].flux) > 0.0f) {
             p.b = p.a + size;
             p.to = middle_of(v, size, x, y + 1);
-            set_edge(v, &p, SIDE_DOWN, SIDE_UP);
+            set_crease_edge(v, &p, SIDE_DOWN, SIDE_UP);
         }
     }
 }
@@ -117,25 +118,25 @@ void lmb_crease_find(const lmb_tree *tree, uint32_t face)
 /* --- shapes ------------------------------------------------------------------------------------------------------- */
 
 /* The planes in one texel's cell: the texel's own, then each neighbour's that meets it, once. */
-typedef struct cell {
+typedef struct crease_cell {
     const lmb_texel *plane[CREASE_PARTS];
     int planes;
-} cell;
+} crease_cell;
 
-static const lmb_texel *neighbour(const lmb_tree *tree, lmb_node_ref at, int side)
+static const lmb_texel *neighbour_texel(const lmb_tree *tree, lmb_node_ref at, int side)
 {
     return tree_texel(tree, at.face, at.x + (side == SIDE_RIGHT) - (side == SIDE_LEFT),
                       at.y + (side == SIDE_DOWN) - (side == SIDE_UP));
 }
 
-static void cell_at(cell *out, const lmb_tree *tree, lmb_node_ref at)
+static void cell_of_texel(crease_cell *out, const lmb_tree *tree, lmb_node_ref at)
 {
     const lmb_texel *own = tree_texel(tree, at.face, at.x, at.y);
     out->plane[0] = own;
     out->planes = 1;
     for (int side = 0; side < 4; ++side) {
         if (own->side[side] != SIDE_WHOLE) {
-            const lmb_texel *other = neighbour(tree, at, side);
+            const lmb_texel *other = neighbour_texel(tree, at, side);
             int known = 0;
             for (int i = 0; i < out->planes; ++i) {
                 known |= same_plane(out->plane[i], other);
@@ -148,9 +149,10 @@ static void cell_at(cell *out, const lmb_tree *tree, lmb_node_ref at)
 
 /* Clips a polygon of the map to the part where plane a shows in front of plane b: the side of their common line with
  * a's centre. Returns the number of corners. */
-static int clip_to(place *inout, int corners, const lmb_view *v, const lmb_texel *a, const lmb_texel *b, place middle)
+static int clip_to(crease_place *inout, int corners, const lmb_view *v, const lmb_texel *a, const lmb_texel *b,
+                   crease_place middle)
 {
-    place out[CREASE_CORNERS];
+    crease_place out[CREASE_CORNERS];
     float h[CREASE_CORNERS];
     int count = 0;
     const float inner = before_at(v, a, b, middle);
@@ -159,7 +161,7 @@ static int clip_to(place *inout, int corners, const lmb_view *v, const lmb_texel
     }
     for (int i = 0; i < corners; ++i) {
         const int next = i + 1 < corners ? i + 1 : 0;
-        const place p = inout[i], q = inout[next];
+        const crease_place p = inout[i], q = inout[next];
         const float hp = h[i], hq = h[next];
         const int p_in = hp * inner >= 0.0f, q_in = hq * inner >= 0.0f;
         if (p_in && count < CREASE_CORNERS) {
@@ -176,10 +178,10 @@ static int clip_to(place *inout, int corners, const lmb_view *v, const lmb_texel
 }
 
 /* Texel a's part of a cell with all planes known. The centre of a selects the side of each line. */
-static int shape_in(place *out, const cell *c, const lmb_view *v, int32_t size, lmb_node_ref at, place middle,
-                    const lmb_texel *a)
+static int shape_in(crease_place *out, const crease_cell *c, const lmb_view *v, int32_t size, lmb_node_ref at,
+                    crease_place middle, const lmb_texel *a)
 {
-    const place m = middle_of(v, size, at.x, at.y);
+    const crease_place m = middle_of(v, size, at.x, at.y);
     const float px = v->half_width / (float)size, py = v->half_height / (float)size;
     int corners = 4;
     /* Unrolled: gcc 12.2 for Helium miscompiles the condition i == 1 || i == 2 in a loop, and selects 1, 2 and 3. */
@@ -195,7 +197,7 @@ static int shape_in(place *out, const cell *c, const lmb_view *v, int32_t size, 
     return corners;
 }
 
-static int represents(const cell *c, const lmb_texel *a)
+static int represents(const crease_cell *c, const lmb_texel *a)
 {
     int found = 0;
     for (int i = 0; i < c->planes; ++i) {
@@ -205,13 +207,13 @@ static int represents(const cell *c, const lmb_texel *a)
 }
 
 /* Part 0: in the texel's own cell; 1 .. 4: in the neighbours' cells. */
-static int part_of(place out[CREASE_CORNERS], const lmb_tree *tree, lmb_node_ref at, int part)
+static int corners_of_part(crease_place out[CREASE_CORNERS], const lmb_tree *tree, lmb_node_ref at, int part)
 {
     const lmb_view *v = &tree->view[at.face];
     const lmb_texel *own = tree_texel(tree, at.face, at.x, at.y);
     const int side = part - 1;
     lmb_node_ref where = at;
-    cell c;
+    crease_cell c;
     if (part > 0) {
         if (own->side[side] == SIDE_WHOLE) {
             return 0;
@@ -219,12 +221,13 @@ static int part_of(place out[CREASE_CORNERS], const lmb_tree *tree, lmb_node_ref
         where.x = (uint16_t)(at.x + (side == SIDE_RIGHT) - (side == SIDE_LEFT));
         where.y = (uint16_t)(at.y + (side == SIDE_DOWN) - (side == SIDE_UP));
     }
-    cell_at(&c, tree, where);
+    cell_of_texel(&c, tree, where);
     return represents(&c, own) ? shape_in(out, &c, v, tree->size, where, middle_of(v, tree->size, at.x, at.y), own) : 0;
 }
 
 /* 1 if the plane runs away from the light at the texel's centre, or between the centre and a corner. */
-NOINLINE int is_steep(const lmb_view *v, const lmb_texel *own, place middle, const place *corner, int corners)
+NOINLINE int is_steep(const lmb_view *v, const lmb_texel *own, crease_place middle, const crease_place *corner,
+                      int corners)
 {
     if (v->kind != LMB_PERSPECTIVE) {
         return corners > 0 && dot3(own->normal, v->back) < GRAZE;
@@ -232,7 +235,7 @@ NOINLINE int is_steep(const lmb_view *v, const lmb_texel *own, place middle, con
     const float there = slope_along(v, own, ray_at(v, middle));
     int steep = corners > 0 && !(there > 0.0f);
     for (int i = 0; i < corners; ++i) {
-        steep |= slope_along(v, own, ray_at(v, corner[i])) < STEEP * there;
+        steep |= slope_along(v, own, ray_at(v, corner[i])) < MIN_CORNER_SHARE * there;
     }
     return steep;
 }
@@ -241,12 +244,12 @@ float lmb_crease_share(const lmb_tree *tree, lmb_node_ref at)
 {
     const lmb_view *v = &tree->view[at.face];
     const lmb_texel *own = tree_texel(tree, at.face, at.x, at.y);
-    const place middle = middle_of(v, tree->size, at.x, at.y);
+    const crease_place middle = middle_of(v, tree->size, at.x, at.y);
     const float wide = 2.0f * v->half_width / (float)tree->size, high = 2.0f * v->half_height / (float)tree->size;
     float twice = 0.0f;
     for (int part = 0; part < CREASE_PARTS; ++part) {
-        place p[CREASE_CORNERS];
-        const int corners = part_of(p, tree, at, part);
+        crease_place p[CREASE_CORNERS];
+        const int corners = corners_of_part(p, tree, at, part);
         if (is_steep(v, own, middle, p, corners)) {
             return -1.0f;
         }
@@ -261,8 +264,8 @@ float lmb_crease_share(const lmb_tree *tree, lmb_node_ref at)
 int lmb_crease_part(lmb_vec3 corner[CREASE_CORNERS], const lmb_tree *tree, lmb_node_ref at, int part)
 {
     const lmb_texel *own = tree_texel(tree, at.face, at.x, at.y);
-    place flat[CREASE_CORNERS];
-    const int corners = part_of(flat, tree, at, part);
+    crease_place flat[CREASE_CORNERS];
+    const int corners = corners_of_part(flat, tree, at, part);
     for (int i = 0; i < corners; ++i) {
         corner[i] = footprint_over(&tree->view[at.face], own->position, own->normal, flat[i].x, flat[i].y);
     }

@@ -6,6 +6,7 @@
 
 #include <string.h>
 
+#include "../base/poly.h"
 #include "../base/vec.h"
 #include "../lane/kernels.h"
 #include "../direct/glossy.h"
@@ -18,21 +19,19 @@
 
 #if LMB_TREES
 
-#define INVERSE_PI         0.31830989f
-#define PI                 3.14159265f
 #define MIN_SEEN_SHARE     0.03  /* pixels that see less than this share of their unblocked light count as dark */
 #define MIN_FLAT_AGREEMENT 0.98f /* nodes with a lower agreement of normals are tested for children that face away */
 #define MAX_ERROR_EXCESS   100.0 /* times the allowed error: if exceeded, nodes contain pixels, and splitting the pixel
                                     cluster helps */
-#define WIDER              1.001f /* enlarges a box against rounding */
+#define BOX_MARGIN         1.001f /* enlarges a box against rounding */
 #define STAND_OFF          4.0f  /* times the noise: offset of a texel's point towards the light */
 #define LARGE_NOISE        1.5258789e-5f /* 2^-16 of the distance to the eye: the origin is then 64 times as far away */
-#define SPENT              8.0 /* factor on the allowed light and error in a tile that has used up the tests */
-#define CLOSER             0.7 /* a split of the pixels must reduce the error to this share to be worth the cuts */
+#define SPENT_TILE_FACTOR     8.0  /* factor on the allowed light and error in a tile that has used up the tests */
+#define MAX_SPLIT_ERROR_SHARE 0.7  /* a split of the pixels must reduce the error to this share to be worth the cuts */
 #define FACETS_NEAR        3.0f /* times LMB_NEAR and half the diagonal of a cell: nearer texels show facets */
-enum { SIDE = 4 /* for a lobe, a near leaf is SIDE x SIDE parts */ };
-enum { NONE = -1, GONE = 0xffff /* level of a slot without a node */ };
-enum { AHEAD = LMB_BOUNDS_NODES / 4 /* nodes with children bounded together */ };
+enum { LEAF_PARTS_A_SIDE = 4 /* for a lobe, a near leaf is LEAF_PARTS_A_SIDE x LEAF_PARTS_A_SIDE parts */ };
+enum { NO_SLOT = -1, NO_LEVEL = 0xffff /* level of a slot without a node */ };
+enum { MAX_NODES_AHEAD = LMB_BOUNDS_NODES / 4 /* nodes with children bounded together */ };
 
 /* --- the cut ------------------------------------------------------------------------------------------------------ */
 
@@ -47,9 +46,9 @@ typedef struct cutter {
     const lmb_view *view; /* decides sides of planes within the noise; NULL: unknown, or the noise is too large */
     uint64_t in_hull;    /* pixels of the cluster in a convex room: nothing can occlude between points in it */
     float per_pixel;     /* 1 / pixels of the cluster */
-    int lobe;            /* a pixel with a lobe that represents the cluster; NONE: no lobes */
+    int lobe;            /* a pixel with a lobe that represents the cluster; NO_SLOT: no lobes */
     double beside;       /* mean light of the pixels from other sources */
-    int32_t ahead[AHEAD]; /* slots with bounded children that are not placed yet, four each; or NONE */
+    int32_t ahead[MAX_NODES_AHEAD]; /* slots with bounded children that are not placed yet, four each; or NO_SLOT */
     uint32_t faces;      /* bounded nodes that do not face away */
     const float *key;    /* bucket keys: cut->error or cut->upper */
     int highest;         /* no higher bucket is in use */
@@ -95,7 +94,7 @@ static void set_bounded_node(lmb_node_bounds *out, int k, const lmb_tree *tree, 
     out->node[LMB_BOUNDS_AGREEMENT][k] = n->agreement;
 }
 
-static lmb_node_ref part_at(lmb_node_ref from, int k)
+static lmb_node_ref node_part(lmb_node_ref from, int k)
 {
     lmb_node_ref at = from;
     at.x = (uint16_t)(2 * from.x + (k & 1));
@@ -120,10 +119,10 @@ static void bound_lobe(cutter *c, int k)
     const float d2 = maxf(dot3(to, to), 1e-24f), node = w->node[LMB_BOUNDS_RADIUS][k],
                 both = node + sqrtf(half[0] * half[0] + half[1] * half[1] + half[2] * half[2]);
     const lmb_glossy *glossy = c->cut_params->glossy;
-    const float far = lmb_glossy_factor(glossy, c->tile, c->lobe, to, minf(PI * both * both / d2, 2.0f * PI));
-    const float mean = lmb_glossy_factor(glossy, c->tile, c->lobe, to, minf(PI * node * node / d2, 2.0f * PI));
+    const float far = lmb_glossy_factor(glossy, c->tile, c->lobe, to, minf(LMB_PI * both * both / d2, 2.0f * LMB_PI));
+    const float mean = lmb_glossy_factor(glossy, c->tile, c->lobe, to, minf(LMB_PI * node * node / d2, 2.0f * LMB_PI));
     const float middle = lmb_glossy_factor(glossy, c->tile, c->lobe, to, 0.0f);
-    const float gain = PI * far, off = absf(middle - mean) / maxf(middle + mean, 1e-12f);
+    const float gain = LMB_PI * far, off = absf(middle - mean) / maxf(middle + mean, 1e-12f);
     w->error[k] += w->upper[k] * gain * off;
     w->upper[k] *= 1.0f + gain;
     w->value[k] *= 1.0f + gain;
@@ -139,7 +138,7 @@ static void node_bounds(cutter *c, int count)
         }
     }
     c->faces = c->kernels->node_bounds(w, count, c->p, c->cut_params->conservative);
-    for (int k = 0; k < count && c->lobe != NONE; ++k) {
+    for (int k = 0; k < count && c->lobe != NO_SLOT; ++k) {
         if (c->faces >> k & 1u) {
             bound_lobe(c, k);
         }
@@ -166,10 +165,10 @@ static void wait(cutter *c, int32_t i)
 
 static int32_t largest(cutter *c)
 {
-    while (c->highest >= 0 && c->cut->bucket[c->highest] == NONE) {
+    while (c->highest >= 0 && c->cut->bucket[c->highest] == NO_SLOT) {
         --c->highest;
     }
-    return c->highest < 0 ? NONE : c->cut->bucket[c->highest];
+    return c->highest < 0 ? NO_SLOT : c->cut->bucket[c->highest];
 }
 
 static void empty_buckets(cutter *c, const float *key)
@@ -177,7 +176,7 @@ static void empty_buckets(cutter *c, const float *key)
     c->key = key;
     c->highest = -1;
     for (int b = 0; b < LMB_CUT_BUCKETS; ++b) {
-        c->cut->bucket[b] = NONE;
+        c->cut->bucket[b] = NO_SLOT;
     }
 }
 
@@ -201,13 +200,13 @@ static int is_spent(const cutter *c) { return !c->cut_params->conservative && c-
 
 static double allowed_error(const cutter *c)
 {
-    const double share = (double)c->cut_params->error * (is_spent(c) ? SPENT : 1.0);
+    const double share = (double)c->cut_params->error * (is_spent(c) ? SPENT_TILE_FACTOR : 1.0);
     const double upper = share * (c->beside + c->value);
     return c->cut_params->conservative ? upper : maxd(upper * upper, c->floor * c->floor);
 }
 
 /* Nodes that no pixel sees add neither light nor error. */
-static void count_in(cutter *c, int32_t i, double sign)
+static void count_in_entry(cutter *c, int32_t i, double sign)
 {
     if (c->cut->visible[i] != 0) {
         c->value += sign * seen_value(c, i);
@@ -216,7 +215,7 @@ static void count_in(cutter *c, int32_t i, double sign)
 }
 
 /* Puts bounded node k into slot i. */
-static void put(cutter *c, int32_t i, lmb_node_ref at, int k, uint64_t visible)
+static void put_entry(cutter *c, int32_t i, lmb_node_ref at, int k, uint64_t visible)
 {
     const lmb_node_bounds *w = bounds_of(c->cut);
     c->cut->ref[i] = at;
@@ -224,7 +223,7 @@ static void put(cutter *c, int32_t i, lmb_node_ref at, int k, uint64_t visible)
     c->cut->value[i] = w->value[k];
     c->cut->upper[i] = w->upper[k];
     c->cut->visible[i] = visible;
-    count_in(c, i, 1.0);
+    count_in_entry(c, i, 1.0);
 }
 
 /* 1 if the point is in front of all pixels of the cluster and they are all in front of it. Uses the cluster's box, so
@@ -303,7 +302,7 @@ static lmb_node_ref brightest_part(const cutter *c, lmb_node_ref from)
     lmb_node_ref best = from;
     float upper = 0.0f;
     for (int k = 0; k < 4; ++k) {
-        const lmb_node_ref at = part_at(from, k);
+        const lmb_node_ref at = node_part(from, k);
         lmb_node texel;
         const lmb_node *n = node_at(&texel, c->tree, at);
         const float flux = flux_sum(n->flux);
@@ -382,7 +381,7 @@ static void test_visibility(cutter *c, int32_t i, uint32_t blocker)
     if (shows_facets(c, at)) {
         return; /* add_facets tests each facet */
     }
-    count_in(c, i, -1.0);
+    count_in_entry(c, i, -1.0);
     if ((c->tree->element != NULL || c->cut_params->spread) && !all_before(c, seen, noise)) {
         const uint64_t turned = turned_from(c, c->cut->visible[i], seen, noise);
         c->cut->visible[i] &= ~(c->tree->element != NULL ? turned : before_all_of(c, turned, at));
@@ -401,7 +400,7 @@ static void test_visibility(cutter *c, int32_t i, uint32_t blocker)
     if (c->cut->visible[i] == 0) {
         c->cut->of.blocker[i] = c->cut->use.traversal.blocker;
     }
-    count_in(c, i, 1.0);
+    count_in_entry(c, i, 1.0);
 }
 
 /* Bounds the children of the node in slot i and of the next nodes in the buckets: nine of ten of these are split
@@ -410,16 +409,16 @@ static void bound_parts(cutter *c, int32_t i)
 {
     const int upper = maxi(c->kernels->lanes / 4, 1);
     int count = 0, b = c->highest;
-    for (int k = 0; k < AHEAD; ++k) {
-        c->ahead[k] = NONE;
+    for (int k = 0; k < MAX_NODES_AHEAD; ++k) {
+        c->ahead[k] = NO_SLOT;
     }
-    for (int32_t next = i; next != NONE && count < upper; ++count) {
+    for (int32_t next = i; next != NO_SLOT && count < upper; ++count) {
         for (int k = 0; k < 4; ++k) {
-            set_bounded_node(bounds_of(c->cut), 4 * count + k, c->tree, part_at(c->cut->ref[next], k));
+            set_bounded_node(bounds_of(c->cut), 4 * count + k, c->tree, node_part(c->cut->ref[next], k));
         }
         c->ahead[count] = next;
         next = next == i ? c->cut->bucket[b] : c->cut->next[next];
-        while (next == NONE && --b >= 0) {
+        while (next == NO_SLOT && --b >= 0) {
             next = c->cut->bucket[b];
         }
     }
@@ -427,38 +426,38 @@ static void bound_parts(cutter *c, int32_t i)
 }
 
 /* Index of the first child of the node in slot i among the bounded nodes. */
-static int parts_of(cutter *c, int32_t i)
+static int parts_of_entry(cutter *c, int32_t i)
 {
     int k = 0;
-    while (k < AHEAD && c->ahead[k] != i) {
+    while (k < MAX_NODES_AHEAD && c->ahead[k] != i) {
         ++k;
     }
-    if (k == AHEAD) {
+    if (k == MAX_NODES_AHEAD) {
         bound_parts(c, i);
         k = 0;
     }
-    c->ahead[k] = NONE;
+    c->ahead[k] = NO_SLOT;
     return 4 * k;
 }
 
 /* Replaces the node in slot i by the four children: the first in this slot, the others at the end. */
-static void divide(cutter *c, int32_t i, uint64_t visible, int asks)
+static void divide_entry(cutter *c, int32_t i, uint64_t visible, int asks)
 {
     const lmb_node_ref from = c->cut->ref[i];
-    const int first = parts_of(c, i);
+    const int first = parts_of_entry(c, i);
     const uint32_t blocker = blocker_of(c->cut, i);
     int32_t slot = i;
-    count_in(c, i, -1.0);
-    c->cut->ref[i].level = GONE;
+    count_in_entry(c, i, -1.0);
+    c->cut->ref[i].level = NO_LEVEL;
     for (int k = 0; k < 4; ++k) {
         if (c->faces >> (first + k) & 1u) {
             const int32_t to = slot >= 0 ? slot : c->cut->count++;
-            put(c, to, part_at(from, k), first + k, visible);
+            put_entry(c, to, node_part(from, k), first + k, visible);
             if (asks) {
                 test_visibility(c, to, blocker);
             }
             wait(c, to);
-            slot = NONE;
+            slot = NO_SLOT;
         }
     }
 }
@@ -468,7 +467,7 @@ static int has_room(const cutter *c) { return c->cut->count + 3 <= LMB_MAX_CUT; 
 /* Largest light of a node with a single visibility test. */
 static double allowed_upper(const cutter *c, double lower)
 {
-    const double share = (double)c->cut_params->visibility * (is_spent(c) ? SPENT : 1.0);
+    const double share = (double)c->cut_params->visibility * (is_spent(c) ? SPENT_TILE_FACTOR : 1.0);
     return maxd(share * (c->beside + maxd(c->value, lower)), c->floor);
 }
 
@@ -482,8 +481,8 @@ static int is_dark(const cutter *c, int32_t i)
         return 0;
     }
     const lmb_node *n = tree_node(c->tree, at);
-    const lmb_vec3 out = mul3(n->normal, n->half[0] * WIDER), across = mul3(n->across, n->half[1] * WIDER),
-                   up = mul3(cross3(n->normal, n->across), n->half[2] * WIDER);
+    const lmb_vec3 out = mul3(n->normal, n->half[0] * BOX_MARGIN), across = mul3(n->across, n->half[1] * BOX_MARGIN),
+                   up = mul3(cross3(n->normal, n->across), n->half[2] * BOX_MARGIN);
     for (int k = 0; k < 8; ++k) {
         const lmb_vec3 side = k & 1 ? across : mul3(across, -1.0f), high = k & 2 ? up : mul3(up, -1.0f);
         corner[k] = add3(add3(n->middle, add3(side, high)), k & 4 ? out : mul3(out, -1.0f));
@@ -497,29 +496,29 @@ static int is_dark(const cutter *c, int32_t i)
 static double divide_by_upper(cutter *c, double lower, int asks)
 {
     int32_t i = largest(c);
-    while (i != NONE && has_room(c) && (double)c->cut->upper[i] > allowed_upper(c, lower)) {
+    while (i != NO_SLOT && has_room(c) && (double)c->cut->upper[i] > allowed_upper(c, lower)) {
         if (asks && is_spent(c)) {
             ++c->cut->use.traversal.coarse;
             return 0.0;
         }
         c->cut->bucket[c->highest] = c->cut->next[i];
         if (!asks || !c->cut_params->spread || !is_dark(c, i)) {
-            divide(c, i, c->p->pixels, asks);
+            divide_entry(c, i, c->p->pixels, asks);
         }
         i = largest(c);
     }
-    return i != NONE && !has_room(c) ? (double)c->cut->upper[i] / maxd(allowed_upper(c, lower), 1e-30) : 0.0;
+    return i != NO_SLOT && !has_room(c) ? (double)c->cut->upper[i] / maxd(allowed_upper(c, lower), 1e-30) : 0.0;
 }
 
 static double divide_by_error(cutter *c)
 {
     int32_t i = largest(c);
-    while (i != NONE && has_room(c) && c->error > allowed_error(c)) {
+    while (i != NO_SLOT && has_room(c) && c->error > allowed_error(c)) {
         c->cut->bucket[c->highest] = c->cut->next[i];
-        divide(c, i, c->cut->visible[i], 0);
+        divide_entry(c, i, c->cut->visible[i], 0);
         i = largest(c);
     }
-    return i != NONE && !has_room(c) ? c->error / maxd(allowed_error(c), 1e-30) : 0.0;
+    return i != NO_SLOT && !has_room(c) ? c->error / maxd(allowed_error(c), 1e-30) : 0.0;
 }
 
 /* Large errors that were added and removed leave their rounding in the sum, so this adds it up again. */
@@ -527,7 +526,7 @@ static int is_right(cutter *c)
 {
     c->error = 0.0;
     for (int32_t i = 0; i < c->cut->count; ++i) {
-        if (c->cut->ref[i].level != GONE && c->cut->visible[i] != 0) {
+        if (c->cut->ref[i].level != NO_LEVEL && c->cut->visible[i] != 0) {
             c->error += counted_error(c, i);
         }
     }
@@ -535,7 +534,7 @@ static int is_right(cutter *c)
 }
 
 /* Starts the cut with the roots of the faces. */
-NOINLINE void begin(cutter *c)
+NOINLINE void begin_cut(cutter *c)
 {
     c->cut->count = 0;
     c->error = c->value = 0.0;
@@ -552,13 +551,13 @@ NOINLINE void begin(cutter *c)
         node_bounds(c, count);
         for (int k = 0; k < count && c->cut->count < LMB_MAX_CUT; ++k) {
             if (c->faces >> k & 1u) {
-                put(c, c->cut->count, root[k], k, c->p->pixels);
+                put_entry(c, c->cut->count, root[k], k, c->p->pixels);
                 wait(c, c->cut->count++);
             }
         }
     }
-    for (int k = 0; k < AHEAD; ++k) {
-        c->ahead[k] = NONE;
+    for (int k = 0; k < MAX_NODES_AHEAD; ++k) {
+        c->ahead[k] = NO_SLOT;
     }
 }
 
@@ -568,7 +567,7 @@ static void wait_by_error(cutter *c)
     empty_buckets(c, c->cut->of.error);
     c->error = 0.0;
     for (int32_t i = 0; i < c->cut->count; ++i) {
-        if (c->cut->ref[i].level != GONE && c->cut->visible[i] != 0) {
+        if (c->cut->ref[i].level != NO_LEVEL && c->cut->visible[i] != 0) {
             c->error += counted_error(c, i);
             wait(c, i);
         }
@@ -581,12 +580,12 @@ static void wait_by_error(cutter *c)
 static double take_cut(cutter *c)
 {
     double over = 0.0;
-    begin(c);
+    begin_cut(c);
     divide_by_upper(c, 0.0, 0);
     if (c->cut_params->bvh != NULL) {
         const double lower = c->value * MIN_SEEN_SHARE;
         for (int32_t i = 0; i < c->cut->count; ++i) {
-            if (c->cut->ref[i].level != GONE) {
+            if (c->cut->ref[i].level != NO_LEVEL) {
                 test_visibility(c, i, 0);
             }
         }
@@ -595,7 +594,7 @@ static double take_cut(cutter *c)
     wait_by_error(c);
     do {
         over = maxd(over, divide_by_error(c));
-    } while (!is_right(c) && has_room(c) && largest(c) != NONE);
+    } while (!is_right(c) && has_room(c) && largest(c) != NO_SLOT);
     return over;
 }
 
@@ -636,7 +635,7 @@ static float leaf_factor(const leaf *l, lmb_vec3 at, lmb_vec3 face, lmb_vec3 nor
                               : lmb_quad_factor(at, face, normal, l->node.centre, l->node.normal, l->u, l->v);
 }
 
-static uint64_t near_pixels(const lmb_tile *tile, const leaf *l, uint64_t visible)
+static uint64_t pixels_near_leaf(const lmb_tile *tile, const leaf *l, uint64_t visible)
 {
     uint64_t out = 0;
     for (uint64_t bits = visible; bits != 0; bits &= bits - 1) {
@@ -672,12 +671,13 @@ static void add_crease(lmb_irradiance *inout, const cutter *c, lmb_node_ref at, 
     }
 }
 
-/* Centre of part i of a leaf's SIDE^2 equal parts. Those of a triangle lie in SIDE rows of 1, 3, 5, ... */
+/* Centre of part i of a leaf's LEAF_PARTS_A_SIDE^2 equal parts. Those of a triangle lie in LEAF_PARTS_A_SIDE rows of
+ * 1, 3, 5, ... */
 static lmb_vec3 leaf_part(const leaf *l, int i)
 {
     if (l->element == NULL) {
-        const float x = (float)(2 * (i % SIDE) + 1 - SIDE) / (float)SIDE,
-                    y = (float)(2 * (i / SIDE) + 1 - SIDE) / (float)SIDE;
+        const float x = (float)(2 * (i % LEAF_PARTS_A_SIDE) + 1 - LEAF_PARTS_A_SIDE) / (float)LEAF_PARTS_A_SIDE,
+                    y = (float)(2 * (i / LEAF_PARTS_A_SIDE) + 1 - LEAF_PARTS_A_SIDE) / (float)LEAF_PARTS_A_SIDE;
         return add3(l->node.centre, add3(mul3(l->u, x), mul3(l->v, y)));
     }
     const lmb_vec3 *corner = l->element->corner;
@@ -686,8 +686,8 @@ static lmb_vec3 leaf_part(const leaf *l, int i)
         ++row;
     }
     const int at = i - row * row; /* even: a corner of the part points to corner 0, odd: away from it */
-    const float down = ((float)row + (at & 1 ? 1.0f / 3.0f : 2.0f / 3.0f)) / (float)SIDE;
-    const float across = ((float)(at / 2) + (at & 1 ? 2.0f / 3.0f : 1.0f / 3.0f)) / (float)SIDE;
+    const float down = ((float)row + (at & 1 ? 1.0f / 3.0f : 2.0f / 3.0f)) / (float)LEAF_PARTS_A_SIDE;
+    const float across = ((float)(at / 2) + (at & 1 ? 2.0f / 3.0f : 1.0f / 3.0f)) / (float)LEAF_PARTS_A_SIDE;
     return add3(corner[0], add3(mul3(sub3(corner[1], corner[0]), down), mul3(sub3(corner[2], corner[1]), across)));
 }
 
@@ -698,15 +698,15 @@ static void add_glossy(const cutter *c, int k, const leaf *l)
     const lmb_vec3 at = tile_vec(c->tile->position, k), face = tile_vec(c->tile->face, k),
                    normal = tile_vec(c->tile->normal, k);
     const lmb_node *n = &l->node;
-    const float share = 1.0f / (float)(SIDE * SIDE), area = n->area * share;
+    const float share = 1.0f / (float)(LEAF_PARTS_A_SIDE * LEAF_PARTS_A_SIDE), area = n->area * share;
     if (dot3(n->normal, sub3(n->centre, at)) >= 0.0f) {
         return; /* on the plane of the leaf or behind it: most near leaves of a surface are its own */
     }
-    for (int i = 0; i < SIDE * SIDE; ++i) {
+    for (int i = 0; i < LEAF_PARTS_A_SIDE * LEAF_PARTS_A_SIDE; ++i) {
         const lmb_vec3 part = leaf_part(l, i), to = sub3(part, at);
         const float factor = share * lmb_disc_factor(at, normal, part, n->normal, area);
         if (dot3(face, to) > 0.0f && factor > 0.0f) {
-            const float r2 = maxf(dot3(to, to), 1e-24f), size = area / (r2 + area * INVERSE_PI);
+            const float r2 = maxf(dot3(to, to), 1e-24f), size = area / (r2 + area * LMB_INVERSE_PI);
             lmb_glossy_add(c->cut_params->glossy, c->tile, k, to, size * maxf(-dot3(n->normal, to), 0.0f) / sqrtf(r2),
                            vec3(factor * n->flux[0], factor * n->flux[1], factor * n->flux[2]));
         }
@@ -736,14 +736,14 @@ static uint64_t before_point(const cutter *c, uint64_t pixels, const lmb_texel *
 }
 
 /* Adds, pixel by pixel, a leaf so near that the shape matters. */
-NOINLINE void add_near(lmb_irradiance *inout, const cutter *c, lmb_node_ref at, const leaf *l, uint64_t visible)
+NOINLINE void add_near_leaf(lmb_irradiance *inout, const cutter *c, lmb_node_ref at, const leaf *l, uint64_t visible)
 {
     const lmb_tile *tile = c->tile;
     const lmb_node *n = &l->node;
     if (l->element == NULL) {
         visible = before_point(c, visible, tree_texel(c->tree, at.face, at.x, at.y));
     }
-    const uint64_t near = near_pixels(tile, l, visible);
+    const uint64_t near = pixels_near_leaf(tile, l, visible);
     add_near_glossy(c, l, visible);
     if (l->is_crease && near != 0) {
         add_crease(inout, c, at, near);
@@ -836,7 +836,7 @@ NOINLINE void add_facets(lmb_irradiance *inout, const cutter *c, lmb_node_ref at
 #endif
 
 /* 1 if a pixel of the cluster may be near the leaf. */
-static int is_near(const lmb_pixel_cluster *p, const leaf *l)
+static int is_leaf_near(const lmb_pixel_cluster *p, const leaf *l)
 {
     return lmb_pixel_cluster_distance2(p, l->node.centre) < LMB_NEAR * LMB_NEAR * l->half2;
 }
@@ -845,7 +845,7 @@ static void set_emitter(lmb_emitter *out, const lmb_node *n, uint64_t visible)
 {
     out->position = n->centre;
     out->back = mul3(n->normal, -1.0f);
-    out->area_pi = n->area * INVERSE_PI;
+    out->area_pi = n->area * LMB_INVERSE_PI;
     for (int c = 0; c < 3; ++c) {
         out->flux[c] = n->flux[c] * n->agreement;
     }
@@ -880,7 +880,7 @@ static void face_on(lmb_node *out, const cutter *c, lmb_node_ref from, const lmb
     out->flux[0] = out->flux[1] = out->flux[2] = out->area = 0.0f;
     for (int k = 0; k < 4; ++k) {
         lmb_node texel;
-        const lmb_node *n = node_at(&texel, c->tree, part_at(from, k));
+        const lmb_node *n = node_at(&texel, c->tree, node_part(from, k));
         const float w = flux_sum(n->flux);
         if (w > 0.0f && dot3(n->normal, sub3(n->centre, c->p->centre)) < lmb_pixel_cluster_reach(c->p, n->normal)) {
             centre = add3(centre, mul3(sub3(n->centre, whole->centre), w));
@@ -921,8 +921,8 @@ static void light_by(stream *s, lmb_node_ref at, uint64_t visible)
             return;
         }
 #endif
-        if (is_near(c->p, &l)) {
-            add_near(s->inout, c, at, &l, visible);
+        if (is_leaf_near(c->p, &l)) {
+            add_near_leaf(s->inout, c, at, &l, visible);
             return;
         }
         n = &l.node;
@@ -961,7 +961,7 @@ NOINLINE void light_cluster(lmb_irradiance *inout, cutter *c)
         light_by_all(&s);
     } else {
         for (int32_t i = 0; i < c->cut->count; ++i) {
-            if (c->cut->ref[i].level != GONE && c->cut->visible[i] != 0) {
+            if (c->cut->ref[i].level != NO_LEVEL && c->cut->visible[i] != 0) {
                 light_by(&s, c->cut->ref[i], c->cut->visible[i]);
             }
         }
@@ -979,7 +979,7 @@ static int lobe_of(const lmb_cut_params *cut_params, const lmb_pixel_cluster *p)
     for (int i = count_bits_64(own) / 2; i > 0; --i) {
         own &= own - 1;
     }
-    return own != 0 ? lowest_bit_64(own) : NONE;
+    return own != 0 ? lowest_bit_64(own) : NO_SLOT;
 }
 
 /* The minimum over the pixels: 0 at the edge of a shadow. */
@@ -1010,7 +1010,7 @@ static double beside(const lmb_cut_params *cut_params, const lmb_pixel_cluster *
 }
 
 /* Half of the pixels: the first ones along the longer side of the cluster's box. */
-NOINLINE uint64_t half_of(const lmb_pixel_cluster *p, const lmb_tile *tile)
+NOINLINE uint64_t half_of_cluster(const lmb_pixel_cluster *p, const lmb_tile *tile)
 {
     const lmb_vec3 along = p->half[2] > p->half[1] ? p->axis[2] : p->axis[1];
     float at[LMB_TILE_PIXELS] = {0};
@@ -1051,7 +1051,8 @@ static int light_together(lmb_irradiance *inout, cutter *c, lmb_pixel_cluster *p
     const double now = take_cut(c);
     c->cut->tests_left = c->cut->use.traversal.left;
     c->cut->coarse += c->cut->use.traversal.coarse;
-    if (now > 0.0 && (now < CLOSER * *over || now > MAX_ERROR_EXCESS) && count_bits_64(p->pixels) > 1 && !is_spent(c)) {
+    if (now > 0.0 && (now < MAX_SPLIT_ERROR_SHARE * *over || now > MAX_ERROR_EXCESS) && count_bits_64(p->pixels) > 1 &&
+        !is_spent(c)) {
         *over = now;
         return 0;
     }
@@ -1067,12 +1068,12 @@ typedef struct waiting {
     uint64_t pixels;
     double over;
 } waiting;
-enum { HALVES = 7 /* 64 pixels, 32, ... 1 */ };
+enum { MAX_CLUSTER_HALVES = 7 /* 64 pixels, 32, ... 1 */ };
 
 /* Cost: each split into halves wastes one full cut. */
 static void light_surface(lmb_irradiance *inout, cutter *c, uint64_t pixels)
 {
-    waiting wait[HALVES + 1];
+    waiting wait[MAX_CLUSTER_HALVES + 1];
     int count = 1;
     wait[0].pixels = pixels;
     wait[0].over = 1e300;
@@ -1082,7 +1083,7 @@ static void light_surface(lmb_irradiance *inout, cutter *c, uint64_t pixels)
         double over = now.over;
         lmb_pixel_cluster_of(&p, c->tile, now.pixels);
         if (!light_together(inout, c, &p, &over)) {
-            wait[count].pixels = half_of(&p, c->tile);
+            wait[count].pixels = half_of_cluster(&p, c->tile);
             wait[count + 1].pixels = p.pixels & ~wait[count].pixels;
             wait[count].over = wait[count + 1].over = over;
             count += 2;

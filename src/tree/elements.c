@@ -11,15 +11,15 @@
 #if LMB_TREES
 
 enum {
-    HALVINGS = 32, /* max halvings of a triangle at the longest edge: 2^31 pieces; 2^24 is the limit */
-    CELLS = 1 << 20,
+    MAX_TRIANGLE_HALVINGS = 32, /* max halvings of a triangle at the longest edge: 2^31 pieces; 2^24 is the limit */
+    MAX_CELLS_A_SIDE = 1 << 20,
     MAX_PIECES = 64 /* per element: also ends the division of pieces without area, or all hole */
 };
 
 /* --- memory ------------------------------------------------------------------------------------------------------- */
 
 /* Texels along a side; 0 if n is not a power of 4 within bounds. */
-static int32_t side_of(uint32_t n)
+static int32_t side_of_cells(uint32_t n)
 {
     int32_t side = LMB_TILE;
     while (side < 4096 && (uint32_t)side * (uint32_t)side < n) {
@@ -30,7 +30,7 @@ static int32_t side_of(uint32_t n)
 
 size_t lmb_elements_bytes(uint32_t n)
 {
-    const size_t tree = side_of(n) > 0 ? lmb_tree_bytes(1, side_of(n)) : 0;
+    const size_t tree = side_of_cells(n) > 0 ? lmb_tree_bytes(1, side_of_cells(n)) : 0;
     return tree == 0 || n > ((size_t)-1 - tree) / sizeof(lmb_element) ? 0 : tree + n * sizeof(lmb_element);
 }
 
@@ -47,14 +47,14 @@ lmb_status lmb_elements_init(lmb_elements *out, uint32_t n, void *memory, size_t
     memset(out, 0, sizeof *out);
     out->data = (lmb_element *)memory;
     out->cap = n;
-    return lmb_tree_init(&out->tree, 1, side_of(n), out->data + n, bytes - n * sizeof(lmb_element));
+    return lmb_tree_init(&out->tree, 1, side_of_cells(n), out->data + n, bytes - n * sizeof(lmb_element));
 }
 
 /* --- pieces -> elements ------------------------------------------------------------------------------------------- */
 
 /* Small triangles find their element by grid cell, in a hash table with twice as many slots as elements. The table uses
  * the memory in which the tree's nodes are built later. */
-typedef struct maker {
+typedef struct element_maker {
     lmb_elements *out;
     const lmb_scene *scene;
     uint32_t *slot; /* index of an element + 1, or 0 */
@@ -62,40 +62,40 @@ typedef struct maker {
     uint32_t pieces; /* of divided triangles */
     float side2;
     int full;
-} maker;
+} element_maker;
 
 /* Elements are sorted by facing side: key / 2^27 is the side. */
 static uint32_t element_facing(const lmb_element *e) { return e->key >> (3 * PIECE_Z_BITS); }
 
-static int32_t cell_of(float at, float low, float per_cell)
+static int32_t cell_along(float at, float low, float per_cell)
 {
-    return (int32_t)clampf((at - low) * per_cell, 0.0f, (float)(CELLS - 1));
+    return (int32_t)clampf((at - low) * per_cell, 0.0f, (float)(MAX_CELLS_A_SIDE - 1));
 }
 
-typedef struct cell {
+typedef struct element_cell {
     int32_t x, y, z;
-} cell;
+} element_cell;
 
 /* The box that contains nearly all of the scene. Outliers are clamped to the box, so that they do not take cells from
  * the rest. */
 static lmb_vec3 low_of(const lmb_scene *s) { return s->core.faces > 0 ? s->core.wide_low : s->bounds_min; }
-static lmb_vec3 high_of(const lmb_scene *s) { return s->core.faces > 0 ? s->core.wide_high : s->bounds_max; }
+static lmb_vec3 high_corner(const lmb_scene *s) { return s->core.faces > 0 ? s->core.wide_high : s->bounds_max; }
 
-static cell cell_at(const maker *m, lmb_vec3 p)
+static element_cell cell_of_place(const element_maker *m, lmb_vec3 p)
 {
     const float per = 2.0f / sqrtf(m->side2);
     const lmb_vec3 low = low_of(m->scene);
-    cell c;
-    c.x = cell_of(p.x, low.x, per);
-    c.y = cell_of(p.y, low.y, per);
-    c.z = cell_of(p.z, low.z, per);
+    element_cell c;
+    c.x = cell_along(p.x, low.x, per);
+    c.y = cell_along(p.y, low.y, per);
+    c.z = cell_along(p.z, low.z, per);
     return c;
 }
 
 /* The slot of the element with e's cell and side, or the empty slot for it. */
-static uint32_t *find_slot(const maker *m, const lmb_element *e)
+static uint32_t *find_slot(const element_maker *m, const lmb_element *e)
 {
-    const cell c = cell_at(m, piece_middle(e->corner));
+    const element_cell c = cell_of_place(m, piece_middle(e->corner));
     uint32_t h = (uint32_t)c.x * 73856093u ^ (uint32_t)c.y * 19349663u ^ (uint32_t)c.z * 83492791u ^
                  element_facing(e) * 2654435761u;
     h ^= h >> 15;
@@ -105,14 +105,14 @@ static uint32_t *find_slot(const maker *m, const lmb_element *e)
             return slot;
         }
         const lmb_element *other = &m->out->data[*slot - 1];
-        const cell o = cell_at(m, piece_middle(other->corner));
+        const element_cell o = cell_of_place(m, piece_middle(other->corner));
         if (o.x == c.x && o.y == c.y && o.z == c.z && element_facing(other) == element_facing(e)) {
             return slot;
         }
     }
 }
 
-static lmb_element *append(maker *m, const lmb_element *e)
+static lmb_element *append(element_maker *m, const lmb_element *e)
 {
     if (m->out->count == m->out->cap) {
         m->full = 1;
@@ -123,7 +123,7 @@ static lmb_element *append(maker *m, const lmb_element *e)
 }
 
 /* received[0] temporarily holds the area of the largest triangle. */
-static void join(lmb_element *into, const lmb_element *e)
+static void join_elements(lmb_element *into, const lmb_element *e)
 {
     const float area = into->area + e->area, share = e->area / area;
     for (int c = 0; c < 3; ++c) {
@@ -140,18 +140,18 @@ static void join(lmb_element *into, const lmb_element *e)
     into->reach2 = 0.0f;
 }
 
-static void add_element(maker *m, const lmb_element *e, int small)
+static void add_element(element_maker *m, const lmb_element *e, int small)
 {
     uint32_t *slot = small ? find_slot(m, e) : NULL;
     if (slot != NULL && *slot != 0) {
-        join(&m->out->data[*slot - 1], e);
+        join_elements(&m->out->data[*slot - 1], e);
     } else if (append(m, e) != NULL && slot != NULL) {
         *slot = m->out->count;
     }
 }
 
 /* Adds both sides of a piece. `fresh` temporarily holds the normal. */
-static void add_piece(maker *m, const piece_source *s, const surface_piece *p, int small)
+static void add_piece(element_maker *m, const piece_source *s, const surface_piece *p, int small)
 {
     const lmb_material *material = s->triangle.material;
     const lmb_vec3 at = piece_middle(p->corner);
@@ -241,9 +241,9 @@ static int enter_first(surface_piece *p, turn *t)
 }
 
 /* Stores turns instead of pending pieces: 28 bytes of stack per halving instead of 60. */
-static void add_source(maker *m, const piece_source *s)
+static void add_source(element_maker *m, const piece_source *s)
 {
-    turn turns[HALVINGS];
+    turn turns[MAX_TRIANGLE_HALVINGS];
     surface_piece p = {{{0, 0, 0}}, {0, 1, 0}, {0, 0, 1}};
     int depth = 0, from = 0;
     memcpy(p.corner, s->triangle.corner, sizeof p.corner);
@@ -252,7 +252,7 @@ static void add_source(maker *m, const piece_source *s)
         return;
     }
     do {
-        while (depth < HALVINGS && longest_edge(&from, &p) > m->side2) {
+        while (depth < MAX_TRIANGLE_HALVINGS && longest_edge(&from, &p) > m->side2) {
             enter_second(&p, &turns[depth++], from);
         }
         add_piece(m, s, &p, 0);
@@ -264,7 +264,7 @@ static void add_source(maker *m, const piece_source *s)
 }
 
 /* Returns 1 if everything fits. */
-static int make(maker *m)
+static int make(element_maker *m)
 {
     const uint32_t all = lmb_scene_triangles(m->scene);
     piece_source s;
@@ -330,7 +330,7 @@ static void sort(lmb_element *data, uint32_t count)
 
 static void put_in_order(lmb_elements *e, const lmb_scene *scene)
 {
-    const lmb_vec3 size = sub3(high_of(scene), low_of(scene));
+    const lmb_vec3 size = sub3(high_corner(scene), low_of(scene));
     const float longest = largest3(size), per = longest > 0.0f ? (float)(1 << PIECE_Z_BITS) / longest : 0.0f;
     for (uint32_t i = 0; i < e->count; ++i) {
         set_key(&e->data[i], scene, per);
@@ -369,7 +369,7 @@ static void set_level(lmb_elements *e, const lmb_tree *lights)
 
 lmb_status lmb_elements_build(lmb_elements *inout, const lmb_scene *scene, const lmb_tree *lights)
 {
-    maker m;
+    element_maker m;
     if (inout == NULL || inout->data == NULL || scene == NULL) {
         return LMB_ERR_ARG;
     }

@@ -15,7 +15,7 @@
 
 #if LMB_LIVE
 
-static void set_point(lmb_live_point *out, const lmb_element *e, const lmb_texel *t, uint32_t i)
+static void set_element_point(lmb_live_point *out, const lmb_element *e, const lmb_texel *t, uint32_t i)
 {
     memset(out, 0, sizeof *out);
     out->position = t->position;
@@ -41,7 +41,7 @@ lmb_status lmb_elements_live(lmb_live *inout, const lmb_elements *elements)
     }
     lmb_live_point *out = inout->point + live_slots(inout->face_cap, inout->side);
     for (uint32_t i = 0; i < elements->count; ++i) {
-        set_point(&out[i], &elements->data[i], &elements->tree.texel[tree_along_z(&elements->tree, i)], i);
+        set_element_point(&out[i], &elements->data[i], &elements->tree.texel[tree_along_z(&elements->tree, i)], i);
     }
     inout->element = elements->data;
     inout->elements = elements->count;

@@ -8,8 +8,9 @@
 
 #if LMB_TREES
 
-static lmb_status light_tile(const lmb_elements *e, const lmb_element_scratch *r, lmb_many_lights_scratch *scratch,
-                             const lmb_many_lights_query *query, uint32_t first)
+static lmb_status light_receiver_tile(const lmb_elements *e, const lmb_element_scratch *r,
+                                      lmb_many_lights_scratch *scratch, const lmb_many_lights_query *query,
+                                      uint32_t first)
 {
     memset(r->fresh, 0, sizeof *r->fresh);
     lmb_elements_as_tile(r->tile, e, first, LMB_TILE_PIXELS);
@@ -36,7 +37,7 @@ lmb_status lmb_many_lights_elements(const lmb_elements *elements, const lmb_elem
     own = *query;
     own.each = 1; /* elements along a curve have no corner pixels */
     for (int32_t i = first; i < past && status == LMB_OK; ++i) {
-        status = light_tile(elements, own_scratch, scratch, &own, (uint32_t)i * LMB_TILE_PIXELS);
+        status = light_receiver_tile(elements, own_scratch, scratch, &own, (uint32_t)i * LMB_TILE_PIXELS);
     }
     return status;
 }

@@ -16,8 +16,8 @@
 
 #if LMB_FACETS
 
-#define HIDDEN 1.0f /* rows of pixels: if more of a part does not show, something hides it */
-#define SMALL 0.5f /* of a cell: a triangle that covers less is small */
+#define MAX_HIDDEN_ROWS 1.0f /* rows of pixels: if more of a part does not show, something hides it */
+#define MAX_SMALL_SHARE 0.5f /* of a cell: a triangle that covers less is small */
 #define SPECK_SHARE 0.5f /* of the pixels that show a triangle: if it covers less, it represents others, too */
 #define STEEP_FACET 0.35f /* cosine to the light: at a sharp edge, steeper planes reach far past their triangles */
 
@@ -136,7 +136,7 @@ static void cut_out(lmb_facet *out, const lmb_facets *f, const lmb_triangle *t, 
 }
 
 /* The place of pixel k of the block on a surface. */
-static lmb_vec3 place_of(const lmb_facets *f, int s, int k)
+static lmb_vec3 place_of_corner(const lmb_facets *f, int s, int k)
 {
     const lmb_view *v = &f->tree->view[f->at.face];
     const float size = (float)(f->tree->size * f->each);
@@ -154,7 +154,7 @@ static int are_before(const lmb_facets *f, int of, uint64_t pixels, int s)
 {
     int before = 1;
     for (; pixels != 0 && before; pixels &= pixels - 1) {
-        before = height_over(f, s, place_of(f, of, lowest_bit_64(pixels))) > 0.0f;
+        before = height_over(f, s, place_of_corner(f, of, lowest_bit_64(pixels))) > 0.0f;
     }
     return before;
 }
@@ -282,7 +282,7 @@ static void list_surfaces(lmb_facets *f)
             s->id = f->id[k];
             const float here = (float)count_bits_64(own) * per_pixel;
             s->is_speck = share < SPECK_SHARE * here && absf(dot3(ray, part.normal)) > STEEP_FACET;
-            if (share < SMALL && !s->is_speck) {
+            if (share < MAX_SMALL_SHARE && !s->is_speck) {
                 covered += share;
                 shown += here;
             }
@@ -295,7 +295,7 @@ static void list_surfaces(lmb_facets *f)
 static int lacks_pixels(const lmb_facet *part, const lmb_facets *f, uint64_t pixels)
 {
     const float shown = (float)count_bits_64(pixels) / (float)(f->each * f->each);
-    return part->area * part->per_area - shown > HIDDEN / (float)f->each;
+    return part->area * part->per_area - shown > MAX_HIDDEN_ROWS / (float)f->each;
 }
 
 void lmb_facets_open(lmb_facets *out, const lmb_tree *tree, const lmb_scene *scene, lmb_node_ref at)
@@ -362,7 +362,7 @@ static void next_part(lmb_facet *out, lmb_facets *f)
     const lmb_facet_surface *s = &f->surface[f->at_surface];
     lmb_triangle t;
     whole_part(out, &t, f, s->id);
-    const float more = out->area * out->per_area < SMALL && !s->is_speck ? f->more : 1.0f;
+    const float more = out->area * out->per_area < MAX_SMALL_SHARE && !s->is_speck ? f->more : 1.0f;
     if (f->left == s->pixels && lacks_pixels(out, f, s->pixels)) {
         clip_by_others(out, f, f->at_surface, s->pixels);
     }

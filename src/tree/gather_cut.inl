@@ -7,11 +7,11 @@ static void KERNEL(gather_cut)(lmb_irradiance *inout, float (*memory)[LMB_GATHER
                                const lmb_emitter *emitters, int32_t count)
 {
     gather_pairs pairs;
-    gather_group block[BLOCK];
+    gather_group block[BLOCK_GROUPS];
     uint64_t none = 0;
     pairs.of = memory;
-    for (int32_t i = 0; i < count; i += BLOCK) {
-        const int32_t n = count - i < BLOCK ? count - i : BLOCK;
+    for (int32_t i = 0; i < count; i += BLOCK_GROUPS) {
+        const int32_t n = count - i < BLOCK_GROUPS ? count - i : BLOCK_GROUPS;
         for (int32_t j = 0; j < n; ++j) {
             const lmb_emitter *e = &emitters[i + j];
             block[j].at = e->position;
@@ -23,11 +23,11 @@ static void KERNEL(gather_cut)(lmb_irradiance *inout, float (*memory)[LMB_GATHER
                 block[j].flux[c] = e->flux[c];
             }
         }
-        for (int k = 0; k < LMB_TILE_PIXELS; k += WIDE) {
+        for (int k = 0; k < LMB_TILE_PIXELS; k += BATCH_PIXELS) {
             gather_find(&pairs, &none, tile, k, block, n);
             gather_estimate(&pairs, tile, k, block);
-            for (int32_t at = 0; at < n * WIDE; at += LANES) {
-                const uint64_t visible = emitters[i + at / WIDE].visible >> (k + at % WIDE);
+            for (int32_t at = 0; at < n * BATCH_PIXELS; at += LANES) {
+                const uint64_t visible = emitters[i + at / BATCH_PIXELS].visible >> (k + at % BATCH_PIXELS);
                 const lane_mask sees = mask_of_bits((uint32_t)visible & ALL_LANES);
                 lane_store(pairs.of[PAIR_I] + at, lane_keep(sees, lane_load(pairs.of[PAIR_I] + at)));
             }

@@ -27,19 +27,19 @@ static uint32_t slots_of(uint32_t cells)
 }
 
 /* A tree of n cells without single-child nodes has at most 2 n - 1 nodes. Kernels read up to 16 past the last. */
-static uint32_t nodes_of(uint32_t cells) { return 2 * cells; }
-static uint32_t plane_of(uint32_t cells) { return 2 * cells + 16; }
+static uint32_t nodes_of_cells(uint32_t cells) { return 2 * cells; }
+static uint32_t planes_of_cells(uint32_t cells) { return 2 * cells + 16; }
 
 size_t lmb_many_lights_bytes(uint32_t cells)
 {
     if (cells < 1 || cells > MAX_CELLS) {
         return 0;
     }
-    return cells * sizeof(lmb_many_lights_cell) + nodes_of(cells) * sizeof(lmb_many_lights_node) +
-           (size_t)plane_of(cells) * LMB_MANY_LIGHTS_PLANES * sizeof(float) + slots_of(cells) * sizeof(uint32_t);
+    return cells * sizeof(lmb_many_lights_cell) + nodes_of_cells(cells) * sizeof(lmb_many_lights_node) +
+           (size_t)planes_of_cells(cells) * LMB_MANY_LIGHTS_PLANES * sizeof(float) + slots_of(cells) * sizeof(uint32_t);
 }
 
-static int is_box(lmb_vec3 low, lmb_vec3 high)
+static int is_light_box(lmb_vec3 low, lmb_vec3 high)
 {
     return is_sane(low.x) && is_sane(low.y) && is_sane(low.z) && is_sane(high.x) && is_sane(high.y) &&
            is_sane(high.z) && low.x <= high.x && low.y <= high.y && low.z <= high.z;
@@ -66,7 +66,7 @@ lmb_status lmb_many_lights_init(lmb_many_lights *out, uint32_t cells, lmb_vec3 l
 {
     const lmb_vec3 side = sub3(high, low);
     const float longest = maxf(side.x, maxf(side.y, side.z));
-    if (out == NULL || memory == NULL || lmb_many_lights_bytes(cells) == 0 || !is_box(low, high) ||
+    if (out == NULL || memory == NULL || lmb_many_lights_bytes(cells) == 0 || !is_light_box(low, high) ||
         !(max >= 0x1p-60f && max <= 0x1p+60f)) {
         return LMB_ERR_ARG;
     }
@@ -78,11 +78,11 @@ lmb_status lmb_many_lights_init(lmb_many_lights *out, uint32_t cells, lmb_vec3 l
     }
     memset(out, 0, sizeof *out);
     out->cell_cap = cells;
-    out->plane_step = plane_of(cells);
+    out->plane_step = planes_of_cells(cells);
     out->slot_count = slots_of(cells);
     out->cell = (lmb_many_lights_cell *)memory;
     out->node = (lmb_many_lights_node *)(void *)(out->cell + cells);
-    out->plane = (float *)(void *)(out->node + nodes_of(cells));
+    out->plane = (float *)(void *)(out->node + nodes_of_cells(cells));
     out->slot = (uint32_t *)(void *)(out->plane + (size_t)out->plane_step * LMB_MANY_LIGHTS_PLANES);
     out->low = low;
     out->high = high;
@@ -133,7 +133,7 @@ static float lot_of(uint32_t hash, float weight)
     return lmb_log2(u) / weight;
 }
 
-static uint32_t step_of(float p, float low, float step)
+static uint32_t step_in_box(float p, float low, float step)
 {
     return (uint32_t)clampf((p - low) / step, 0.0f, 16777215.0f);
 }
@@ -147,7 +147,7 @@ static lmb_many_lights_member member_of(const lmb_many_lights_source *source, fl
     return m;
 }
 
-static int is_inside(const lmb_many_lights *m, lmb_vec3 p)
+static int is_inside_box(const lmb_many_lights *m, lmb_vec3 p)
 {
     return p.x >= m->low.x && p.x <= m->high.x && p.y >= m->low.y && p.y <= m->high.y && p.z >= m->low.z &&
            p.z <= m->high.z;
@@ -165,7 +165,7 @@ static int is_taken(const lmb_many_lights *m, const lmb_light *l)
         dark = dark && l->intensity[c] < maxf(m->quantum, 0x1p-60f);
     }
     return !dark && l->range >= 0.0f && light_kind_is(l->kind, LIGHT_KNOWN) && light_shape_is_valid(l) &&
-           (light_kind_is(l->kind, LIGHT_FAR) || is_inside(m, l->position));
+           (light_kind_is(l->kind, LIGHT_FAR) || is_inside_box(m, l->position));
 }
 
 /* Rounds values under a micrometre to +0: with both zeros the minimum would depend on the order. */
@@ -188,7 +188,7 @@ static lmb_many_lights_source source_of(const lmb_light *l)
 }
 
 /* 0 .. 5: dominant axis and sign of a spot's direction. */
-static uint32_t side_of(lmb_vec3 d)
+static uint32_t side_of_direction(lmb_vec3 d)
 {
     const float x = absf(d.x), y = absf(d.y), z = absf(d.z);
     if (x >= y && x >= z) {
@@ -200,7 +200,7 @@ static uint32_t side_of(lmb_vec3 d)
 static uint32_t kind_of(const lmb_light *l)
 {
     return l->kind == LMB_LIGHT_POINT  ? 0u
-           : l->kind == LMB_LIGHT_SPOT ? 1u + side_of(l->direction)
+           : l->kind == LMB_LIGHT_SPOT ? 1u + side_of_direction(l->direction)
                                        : LMB_MANY_LIGHTS_SUNS;
 }
 
@@ -209,14 +209,14 @@ static void set_shape(lmb_many_lights_cell *out, const lmb_many_lights_source *s
 {
     const float axis[3] = {s->direction.x, s->direction.y, s->direction.z};
     for (int a = 0; a < 3; ++a) {
-        out->turn |= spread_bits(step_of(axis[a], -1.0f, 0x1p-23f) >> (24 - AXIS_BITS)) << a;
+        out->turn |= spread_bits(step_in_box(axis[a], -1.0f, 0x1p-23f) >> (24 - AXIS_BITS)) << a;
     }
     memcpy(out->axis_low, axis, sizeof axis);
     memcpy(out->axis_high, axis, sizeof axis);
     out->cos_outer = s->cos_outer;
 }
 
-static void cell_of(lmb_many_lights_cell *out, const lmb_many_lights *m, const lmb_light *l)
+static void cell_of_light(lmb_many_lights_cell *out, const lmb_many_lights *m, const lmb_light *l)
 {
     const lmb_many_lights_source source = source_of(l);
     const float place[3] = {source.position.x, source.position.y, source.position.z};
@@ -236,7 +236,7 @@ static void cell_of(lmb_many_lights_cell *out, const lmb_many_lights *m, const l
     }
     out->weight = (sum >> 24) + 1;
     for (int a = 0; a < 3; ++a) {
-        const uint32_t at = step_of(place[a], scale.low[a], scale.step);
+        const uint32_t at = step_in_box(place[a], scale.low[a], scale.step);
         out->moment[a] = out->weight * (int64_t)at;
         out->key |= spread_bits(at >> (24 - AXIS_BITS)) << a;
         out->low[a] = out->high[a] = place[a];
@@ -320,7 +320,7 @@ static uint32_t *slot_of(const lmb_many_lights *m, const lmb_many_lights_cell *c
     return &m->slot[i];
 }
 
-static void widen(lmb_many_lights_cell *c)
+static void widen_cell(lmb_many_lights_cell *c)
 {
     c->key >>= 3;
     c->turn >>= 3;
@@ -334,7 +334,7 @@ static void double_cells(lmb_many_lights *m)
     ++m->doubled;
     m->cell_count = 0;
     for (uint32_t i = 0; i < count; ++i) {
-        widen(&m->cell[i]);
+        widen_cell(&m->cell[i]);
         uint32_t *slot = slot_of(m, &m->cell[i]);
         if (*slot != 0) {
             lmb_many_lights_merge(&m->cell[*slot - 1], &m->cell[i]);
@@ -346,7 +346,7 @@ static void double_cells(lmb_many_lights *m)
 }
 
 /* Returns 0 if not even one cell for each kind fits. */
-static int put_cell(lmb_many_lights *m, lmb_many_lights_cell *c)
+static int put_light_cell(lmb_many_lights *m, lmb_many_lights_cell *c)
 {
     uint32_t *slot = slot_of(m, c);
     while (*slot == 0 && m->cell_count == m->cell_cap) {
@@ -354,7 +354,7 @@ static int put_cell(lmb_many_lights *m, lmb_many_lights_cell *c)
             return 0;
         }
         double_cells(m);
-        widen(c);
+        widen_cell(c);
         slot = slot_of(m, c);
     }
     if (*slot != 0) {
@@ -380,9 +380,9 @@ lmb_status lmb_many_lights_add(lmb_many_lights *inout, const lmb_light *lights, 
         if (is_too_much(inout, &lights[i])) {
             return LMB_ERR_CAPACITY;
         }
-        cell_of(&c, inout, &lights[i]);
+        cell_of_light(&c, inout, &lights[i]);
         const int64_t sum = c.intensity[0] + c.intensity[1] + c.intensity[2];
-        if (sum > (INT64_C(1) << 62) - inout->total || !put_cell(inout, &c)) {
+        if (sum > (INT64_C(1) << 62) - inout->total || !put_light_cell(inout, &c)) {
             return LMB_ERR_CAPACITY;
         }
         inout->total += sum;

@@ -52,7 +52,7 @@ static lmb_many_lights_entry pop(lmb_many_lights_scratch *s)
 }
 
 /* Nodes too near for a bound are refined anyway, and would only make the sums inaccurate. */
-static void count_in(lmb_many_lights_scratch *s, const lmb_many_lights_entry *e, float sign)
+static void count_in_lights(lmb_many_lights_scratch *s, const lmb_many_lights_entry *e, float sign)
 {
     if (e->error < LMB_MANY_LIGHTS_NEAR) {
         s->error += sign * e->error;
@@ -60,7 +60,7 @@ static void count_in(lmb_many_lights_scratch *s, const lmb_many_lights_entry *e,
     }
 }
 
-static float key_of(const lmb_many_lights_scratch *s, const lmb_many_lights_entry *e)
+static float key_of_entry(const lmb_many_lights_scratch *s, const lmb_many_lights_entry *e)
 {
     return s->by_light ? e->inside : e->error;
 }
@@ -76,12 +76,12 @@ static void add_nodes(lmb_many_lights_scratch *s, const lmb_kernels *kernels, co
         e.error = parts ? error[k] : 0.0f;
         e.light = light[k];
         e.inside = inside[k];
-        e.key = key_of(s, &e);
+        e.key = key_of_entry(s, &e);
         e.node = first + k;
         if (error[k] < 0.0f) {
             continue;
         }
-        count_in(s, &e, 1.0f);
+        count_in_lights(s, &e, 1.0f);
         if (parts) {
             push(s, e);
         } else {
@@ -112,13 +112,13 @@ static int is_fine(const lmb_many_lights_scratch *s)
     return s->entry[0].error < LMB_MANY_LIGHTS_NEAR && s->error <= SUM_OF_BOUNDS * s->allowed * s->light;
 }
 
-static void part(lmb_many_lights_scratch *s, const lmb_kernels *kernels, const lmb_many_lights_query *query,
-                 const lmb_many_lights_job *job)
+static void divide_node(lmb_many_lights_scratch *s, const lmb_kernels *kernels, const lmb_many_lights_query *query,
+                        const lmb_many_lights_job *job)
 {
     while (s->open > 0 && s->open + s->closed + 7 <= LMB_MANY_LIGHTS_CUT && !is_fine(s)) {
         const lmb_many_lights_entry e = pop(s);
         const lmb_many_lights_node *node = &query->many_lights->node[e.node];
-        count_in(s, &e, -1.0f);
+        count_in_lights(s, &e, -1.0f);
         add_nodes(s, kernels, query->many_lights, node->first, node->children, job);
     }
 }
@@ -131,7 +131,7 @@ static void order_by_light(lmb_many_lights_scratch *s)
     s->open = 0;
     for (int32_t i = 0; i < count; ++i) {
         lmb_many_lights_entry e = s->entry[i];
-        e.key = key_of(s, &e);
+        e.key = key_of_entry(s, &e);
         push(s, e);
     }
 }
@@ -143,9 +143,9 @@ void lmb_many_lights_cut(lmb_many_lights_scratch *s, const lmb_kernels *kernels,
     s->open = s->closed = s->by_light = 0;
     s->error = s->light = 0.0f;
     add_roots(s, kernels, query->many_lights, job);
-    part(s, kernels, query, job);
+    divide_node(s, kernels, query, job);
     order_by_light(s);
-    part(s, kernels, query, job);
+    divide_node(s, kernels, query, job);
 }
 
 #endif

@@ -8,7 +8,7 @@
 
 #if LMB_TREES
 
-#define SURFACES 4 /* max surfaces of a tile with a cut of their own; the last takes the rest */
+#define MAX_TILE_SURFACES 4 /* max surfaces of a tile with a cut of their own; the last takes the rest */
 
 /* --- the tile's surfaces ------------------------------------------------------------------------------------------ */
 
@@ -71,7 +71,7 @@ static uint64_t occluded_from(const lit_surface *s, uint64_t pixels, uint32_t ki
 
 /* The pixels from which a point is visible. If the four corners of the tile agree, all pixels share their result.
  * Points that contribute much are tested from each pixel. */
-static uint64_t seen_from(const lit_surface *s, uint32_t *tests, uint32_t kind, lmb_vec3 at, int is_strong)
+static uint64_t lights_seen_from(const lit_surface *s, uint32_t *tests, uint32_t kind, lmb_vec3 at, int is_strong)
 {
     if (s->query->bvh == NULL) {
         return s->pixels;
@@ -110,9 +110,9 @@ static void test_active(lmb_active_light *active, const lit_surface *s, const lm
     const lmb_vec3 at = by_lot ? node->median.position : node->strongest.position;
     active->share[0] = maxf(node->share, 0.5f);
     active->share[1] = 1.0f - active->share[0];
-    active->seen[0] = active->seen[1] = seen_from(s, tests, node->kind, at, is_strong);
+    active->seen[0] = active->seen[1] = lights_seen_from(s, tests, node->kind, at, is_strong);
     if (!by_lot && !is_one_place(node, &s->job)) {
-        active->seen[1] = seen_from(s, tests, node->kind, node->median.position, is_strong);
+        active->seen[1] = lights_seen_from(s, tests, node->kind, node->median.position, is_strong);
     }
 }
 
@@ -153,8 +153,8 @@ static void add_irradiance(lmb_irradiance *inout, lmb_many_lights_scratch *scrat
     }
 }
 
-#define LITTLE 0.2f    /* if less of the light arrives, a second cut is made: windows lie between nodes */
-#define FINEST 0.0625f /* min error of a second cut, as a share of the requested error */
+#define MAX_LITTLE_SHARE 0.2f    /* if less of the light arrives, a second cut is made: windows lie between nodes */
+#define MIN_ERROR_SHARE  0.0625f /* min error of a second cut, as a share of the requested error */
 
 /* Share of the cut's light that arrived, averaged over the surface's pixels. */
 static float seen_share(const lmb_irradiance *arrived, float light, const lit_surface *s)
@@ -185,8 +185,8 @@ NOINLINE void light_by_seen(lmb_irradiance *inout, lmb_many_lights_scratch *scra
     lmb_irradiance arrived;
     light_part(&arrived, scratch, s, s->query);
     const float share = seen_share(&arrived, scratch->light, s);
-    if (share < LITTLE && finer.bvh != NULL) {
-        finer.error = scratch->allowed * maxf(share, FINEST);
+    if (share < MAX_LITTLE_SHARE && finer.bvh != NULL) {
+        finer.error = scratch->allowed * maxf(share, MIN_ERROR_SHARE);
         light_part(&arrived, scratch, s, &finer);
     }
     for (int c = 0; c < 3; ++c) {
@@ -213,7 +213,7 @@ lmb_status lmb_many_lights_direct_tile(lmb_irradiance *inout, const lmb_kernels 
         s.tile = tile;
         s.query = query;
         s.traversal = &scratch->traversal;
-        s.pixels = n < SURFACES ? tile_surface(tile, left) : left;
+        s.pixels = n < MAX_TILE_SURFACES ? tile_surface(tile, left) : left;
         s.corners = corners_of(s.pixels);
         s.noise = lmb_tile_noise(tile, s.pixels);
         s.job = job_of(tile, s.pixels);

@@ -49,7 +49,7 @@ static void sort_cells(lmb_many_lights *m)
     memmove(m->slot, from, n * sizeof *from);
 }
 
-static const lmb_many_lights_cell *cell_at(const lmb_many_lights *m, uint32_t i) { return &m->cell[m->slot[i]]; }
+static const lmb_many_lights_cell *light_cell_at(const lmb_many_lights *m, uint32_t i) { return &m->cell[m->slot[i]]; }
 
 static float watts(const lmb_many_lights *m, int64_t quanta)
 {
@@ -59,7 +59,7 @@ static float watts(const lmb_many_lights *m, int64_t quanta)
 
 /* Weighted mean, at the middle of a quantization step, clamped to the lights' box: a single light keeps its
  * position. */
-static float mean_of(const lmb_many_lights_cell *c, int axis, float low, float step)
+static float mean_place_of(const lmb_many_lights_cell *c, int axis, float low, float step)
 {
     const float at = low + ((float)(c->moment[axis] / c->weight) + 0.5f) * step;
     return clampf(at, c->low[axis], c->high[axis]);
@@ -85,7 +85,7 @@ static void set_cone(lmb_many_lights *m, uint32_t i, const lmb_many_lights_cell 
     }
 }
 
-static void set_planes(lmb_many_lights *m, uint32_t i, const lmb_many_lights_cell *c)
+static void set_cell_planes(lmb_many_lights *m, uint32_t i, const lmb_many_lights_cell *c)
 {
     const lmb_many_lights_node *node = &m->node[i];
     const float at[3] = {node->position.x, node->position.y, node->position.z};
@@ -111,8 +111,8 @@ static uint32_t light_kind(uint32_t kind)
 static void set_position(lmb_many_lights *m, lmb_many_lights_node *node, const lmb_many_lights_cell *c)
 {
     const lmb_many_lights_scale scale = lmb_many_lights_scale_of(m, c->kind);
-    node->position = vec3(mean_of(c, 0, scale.low[0], scale.step), mean_of(c, 1, scale.low[1], scale.step),
-                          mean_of(c, 2, scale.low[2], scale.step));
+    node->position = vec3(mean_place_of(c, 0, scale.low[0], scale.step), mean_place_of(c, 1, scale.low[1], scale.step),
+                          mean_place_of(c, 2, scale.low[2], scale.step));
     if (c->lights > 1 && light_kind_is((int32_t)node->kind, LIGHT_FAR)) {
         const float length = length3(node->position);
         node->position = length > 1e-6f ? mul3(node->position, 1.0f / length) : c->strongest.source.position;
@@ -133,7 +133,7 @@ static void set_node(lmb_many_lights *m, uint32_t i, uint32_t from, uint32_t pas
         node->intensity[c] = watts(m, sum.intensity[c]);
         size2 += (sum.high[c] - sum.low[c]) * (sum.high[c] - sum.low[c]);
     }
-    node->kind = sum.kind == cell_at(m, past - 1)->kind ? light_kind(sum.kind) : LMB_MANY_LIGHTS_MIXED;
+    node->kind = sum.kind == light_cell_at(m, past - 1)->kind ? light_kind(sum.kind) : LMB_MANY_LIGHTS_MIXED;
     set_position(m, node, &sum);
     node->spread = size2 * (1.0f / 12.0f); /* a uniformly filled side s: s^2 / 12 */
     node->strongest = sum.strongest.source;
@@ -142,7 +142,7 @@ static void set_node(lmb_many_lights *m, uint32_t i, uint32_t from, uint32_t pas
     node->lights = sum.lights;
     node->from = from;
     node->past = past;
-    set_planes(m, i, &sum);
+    set_cell_planes(m, i, &sum);
 }
 
 enum { BY_KEY = 64, BY_KIND = 128 }; /* a split: shift of the turn; of the key, from BY_KEY on; or the kind */
@@ -150,7 +150,7 @@ enum { BY_KEY = 64, BY_KIND = 128 }; /* a split: shift of the turn; of the key, 
 /* The child of a node that holds cell i: three bits of the key or turn, or the kind. */
 static uint32_t octant(const lmb_many_lights *m, uint32_t i, int parting)
 {
-    const lmb_many_lights_cell *c = cell_at(m, i);
+    const lmb_many_lights_cell *c = light_cell_at(m, i);
     return parting == BY_KIND ? c->kind
                               : (uint32_t)((parting >= BY_KEY ? c->key : c->turn) >> (parting & 63)) & 7u;
 }
@@ -158,7 +158,7 @@ static uint32_t octant(const lmb_many_lights *m, uint32_t i, int parting)
 /* The highest three bits in which the first and last cells of a range differ: the tree splits there. */
 static int parting_of(const lmb_many_lights *m, uint32_t from, uint32_t past)
 {
-    const lmb_many_lights_cell *a = cell_at(m, from), *b = cell_at(m, past - 1);
+    const lmb_many_lights_cell *a = light_cell_at(m, from), *b = light_cell_at(m, past - 1);
     const uint64_t differ = a->key != b->key ? a->key ^ b->key : a->turn ^ b->turn;
     int shift = 60;
     if (a->kind != b->kind) {

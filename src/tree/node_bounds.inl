@@ -113,8 +113,9 @@ LANE_INLINE lane_mask bounds_rule(lmb_node_bounds *w, int k, const lmb_pixel_clu
      * small enough that no rounding of it remains in the sum of errors afterwards. */
     const lane lower = lane_max(lane_mul(lane_splat(1e-6f), n->half2), lane_splat(1e-24f));
     const lane d2 = lane_max(n->apart2, lower), d = lane_sqrt(d2);
-    const lane upper = lane_mul(lane_mul(lane_div(lane_mul(n->m, lane_splat(INVERSE_PI)), d2),
-                                        lane_min(lane_div(up, d), one)), lane_min(lane_div(out, d), one));
+    const lane upper =
+        lane_mul(lane_mul(lane_div(lane_mul(n->m, lane_splat(LMB_INVERSE_PI)), d2), lane_min(lane_div(up, d), one)),
+                 lane_min(lane_div(out, d), one));
     const lane over = lane_mul(two, lane_add(lane_add(n->own_p, n->cluster_p), sines_p));
     const lane before = lane_mul(two, lane_add(lane_add(n->own_g, n->cluster_g), sines_g));
     const lane size2 = lane_div(lane_mul(lane_splat(BOUNDS_SECOND), n->half2), d2);
@@ -139,13 +140,13 @@ LANE_INLINE lane_mask bounds_rule(lmb_node_bounds *w, int k, const lmb_pixel_clu
 LANE_INLINE lane_mask bounds_conservative(lmb_node_bounds *w, int k, const lmb_pixel_cluster *p, const bounds_pair *n)
 {
     const lane zero = lane_splat(0.0f), one = lane_splat(1.0f), rounded = lane_splat(BOUNDS_ROUNDED);
-    const lane slack = lane_mul(rounded, n->reach), power = lane_mul(n->m, lane_splat(INVERSE_PI));
+    const lane slack = lane_mul(rounded, n->reach), power = lane_mul(n->m, lane_splat(LMB_INVERSE_PI));
     const lane up = lane3_dot(lane3_of(p->normal), n->to), out = lane_sub(zero, lane3_dot(n->normal, n->to));
     const lane ups = lane_add(lane_add(lane_add(n->own_p, n->cluster_p), lane_mul(lane_splat(p->face_sine), n->reach)),
                               slack);
     const lane outs = lane_add(lane_add(lane_add(n->own_g, n->cluster_g), lane_mul(n->sine, n->reach)), slack);
     const lane d2 = lane_max(n->apart2, lane_splat(1e-24f)), d = lane_sqrt(d2);
-    const lane s = lane_div(lane_mul(lane_load(w->node[LMB_BOUNDS_AREA] + k), lane_splat(INVERSE_PI)), d2);
+    const lane s = lane_div(lane_mul(lane_load(w->node[LMB_BOUNDS_AREA] + k), lane_splat(LMB_INVERSE_PI)), d2);
     const lane high_p = lane_min(lane_div(lane_max(lane_add(up, ups), zero), d), one);
     const lane high_g = lane_min(lane_div(lane_max(lane_add(out, outs), zero), d), one);
     const lane low_p = lane_div(lane_max(lane_sub(up, ups), zero), n->reach);

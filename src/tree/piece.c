@@ -10,7 +10,7 @@
 
 #if LMB_TREES || LMB_TRANSFER
 
-enum { SAMPLES = 4 };
+enum { ALBEDO_SAMPLES = 4 };
 
 /* Texels of the base colour texture; if there is none, of the metal map. */
 static void set_texels(piece_source *s)
@@ -42,7 +42,7 @@ int lmb_source_open(piece_source *out, const lmb_scene *scene, uint32_t id)
     return 1;
 }
 
-static void albedo_at(float out[3], const piece_source *s, float b1, float b2, float lod)
+static void albedo_at_point(float out[3], const piece_source *s, float b1, float b2, float lod)
 {
     const lmb_material *m = s->triangle.material;
     float texel[4] = {1.0f, 1.0f, 1.0f, 1.0f}, code[4], diffuse = 1.0f;
@@ -63,15 +63,15 @@ static void albedo_at(float out[3], const piece_source *s, float b1, float b2, f
 
 float lmb_source_albedo(float albedo[3], const piece_source *s, const surface_piece *p, float share)
 {
-    const float texels = s->texels * share / SAMPLES, lod = texels > 1.0f ? 0.5f * lmb_log2(texels) : 0.0f;
+    const float texels = s->texels * share / ALBEDO_SAMPLES, lod = texels > 1.0f ? 0.5f * lmb_log2(texels) : 0.0f;
     const float b1 = (p->b1[0] + p->b1[1] + p->b1[2]) / 3.0f, b2 = (p->b2[0] + p->b2[1] + p->b2[2]) / 3.0f;
     int standing = 0;
     albedo[0] = albedo[1] = albedo[2] = 0.0f;
-    for (int i = 0; i < SAMPLES; ++i) {
+    for (int i = 0; i < ALBEDO_SAMPLES; ++i) {
         const float x = i < 3 ? 0.5f * (b1 + p->b1[i]) : b1, y = i < 3 ? 0.5f * (b2 + p->b2[i]) : b2;
         float a[3];
         if (lmb_triangle_opaque(&s->triangle, s->scene, x, y)) {
-            albedo_at(a, s, x, y, lod);
+            albedo_at_point(a, s, x, y, lod);
             for (int c = 0; c < 3; ++c) {
                 albedo[c] += a[c];
             }
@@ -81,7 +81,7 @@ float lmb_source_albedo(float albedo[3], const piece_source *s, const surface_pi
     for (int c = 0; c < 3; ++c) {
         albedo[c] /= (float)maxi(standing, 1);
     }
-    return (float)standing / SAMPLES;
+    return (float)standing / ALBEDO_SAMPLES;
 }
 
 void lmb_source_albedo_at(float out[3], const piece_source *s, lmb_vec3 at, float area)
@@ -91,7 +91,7 @@ void lmb_source_albedo_at(float out[3], const piece_source *s, lmb_vec3 at, floa
     const float per = 1.0f / dot3(across, across), texels = s->texels * area / s->area;
     const float b1 = clampf(dot3(cross3(p, sub3(corner[2], corner[0])), across) * per, 0.0f, 1.0f),
                 b2 = clampf(dot3(cross3(sub3(corner[1], corner[0]), p), across) * per, 0.0f, 1.0f - b1);
-    albedo_at(out, s, b1, b2, texels > 1.0f ? 0.5f * lmb_log2(texels) : 0.0f);
+    albedo_at_point(out, s, b1, b2, texels > 1.0f ? 0.5f * lmb_log2(texels) : 0.0f);
 }
 
 /* --- emission ----------------------------------------------------------------------------------------------------- */

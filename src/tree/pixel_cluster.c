@@ -7,13 +7,13 @@
 
 #if LMB_TREES
 
-#define NOISE 2.3841858e-7f /* 2^-22 of the largest coordinate: four times the rounding of a position */
+#define PLACE_NOISE 2.3841858e-7f /* 2^-22 of the largest coordinate: four times the rounding of a position */
 
 /* Sine of an angle under 90 degrees; otherwise 1. */
 static float sine_of(float cosine) { return cosine > 0.0f ? sqrtf(maxf(1.0f - cosine * cosine, 0.0f)) : 1.0f; }
 
 /* The direction of positions along columns or rows of the tile, whichever is longer. */
-static lmb_vec3 way_of(const lmb_tile *tile, uint64_t pixels)
+static lmb_vec3 mean_normal_of(const lmb_tile *tile, uint64_t pixels)
 {
     const lmb_vec3 first = tile_vec(tile->position, lowest_bit_64(pixels));
     lmb_vec3 sum = vec3(0, 0, 0), by_column = vec3(0, 0, 0), by_row = vec3(0, 0, 0);
@@ -32,10 +32,10 @@ static lmb_vec3 way_of(const lmb_tile *tile, uint64_t pixels)
 }
 
 /* face: mean of the face normals. */
-static void set_box(lmb_pixel_cluster *out, const lmb_tile *tile, uint64_t pixels, lmb_vec3 face)
+static void set_cluster_box(lmb_pixel_cluster *out, const lmb_tile *tile, uint64_t pixels, lmb_vec3 face)
 {
     box_span box = box_begin(tile_vec(tile->position, lowest_bit_64(pixels)), face,
-                             box_across(face, way_of(tile, pixels)));
+                             box_across(face, mean_normal_of(tile, pixels)));
     float largest = 0.0f;
     for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
         const lmb_vec3 at = tile_vec(tile->position, lowest_bit_64(bits));
@@ -47,7 +47,7 @@ static void set_box(lmb_pixel_cluster *out, const lmb_tile *tile, uint64_t pixel
         out->half[i] = box_half(&box, i);
     }
     out->centre = box_middle(&box);
-    out->noise = NOISE * largest;
+    out->noise = PLACE_NOISE * largest;
     out->thick = 0.0f;
     for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
         const lmb_vec3 d = sub3(tile_vec(tile->position, lowest_bit_64(bits)), out->centre);
@@ -65,7 +65,7 @@ void lmb_pixel_cluster_of(lmb_pixel_cluster *out, const lmb_tile *tile, uint64_t
     }
     out->pixels = pixels;
     out->normal = normalize3(sum);
-    set_box(out, tile, pixels, normalize3(faces));
+    set_cluster_box(out, tile, pixels, normalize3(faces));
     for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
         cosine = minf(cosine, dot3(out->normal, tile_vec(tile->normal, k)));

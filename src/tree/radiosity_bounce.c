@@ -24,8 +24,8 @@ int32_t lmb_elements_tiles(const lmb_elements *elements)
  * bunny_room, where the curve jumps from walls to the bunny, 1.1, 2.9, 6.6. So a group has 16 elements if these are a
  * compact piece of surface, otherwise 4. */
 
-enum { TOGETHER = 16, FEW = 4 };
-#define COMPACT 8.0f /* max squared diagonal of their box / area: 2 for a square, 4.25 for 4 x 1 */
+enum { MANY_TOGETHER = 16, FEW_TOGETHER = 4 };
+#define MAX_COMPACT_DIAGONAL2 8.0f /* max squared diagonal of their box / area: 2 for a square, 4.25 for 4 x 1 */
 
 static int are_compact(const lmb_elements *e, uint32_t first, uint32_t count)
 {
@@ -44,7 +44,7 @@ static int are_compact(const lmb_elements *e, uint32_t first, uint32_t count)
     for (int c = 0; c < 3; ++c) {
         diagonal2 += (high[c] - low[c]) * (high[c] - low[c]);
     }
-    return diagonal2 <= COMPACT * area;
+    return diagonal2 <= MAX_COMPACT_DIAGONAL2 * area;
 }
 
 void lmb_elements_as_tile(lmb_tile *tile, const lmb_elements *e, uint32_t first, uint32_t count)
@@ -114,7 +114,8 @@ lmb_status lmb_elements_receive(const lmb_elements *elements, const lmb_element_
     }
     const uint32_t end = minu((uint32_t)past * LMB_TILE_PIXELS, elements->count);
     for (uint32_t i = (uint32_t)first * LMB_TILE_PIXELS; i < end && status == LMB_OK;) {
-        const uint32_t count = i % TOGETHER == 0 && are_compact(elements, i, TOGETHER) ? TOGETHER : FEW;
+        const uint32_t count =
+            i % MANY_TOGETHER == 0 && are_compact(elements, i, MANY_TOGETHER) ? MANY_TOGETHER : FEW_TOGETHER;
         status = receive_tile(elements, own_scratch, lights, *cut_params, i, count);
         i += count;
     }
@@ -137,7 +138,7 @@ static double sent_by(const lmb_tree *lights, int channel)
  * elements gives sum of A B' B' / sum of A B' B. It weights each element by the light still there, because light that
  * left into the open does not represent the rest. Light from maps has no position among the elements; then the ratio is
  * the total reflected over the total received. */
-static double kept_of(const lmb_elements *e, double by_lights, int channel)
+static double kept_by_elements(const lmb_elements *e, double by_lights, int channel)
 {
     double kept = 0.0, before = 0.0;
     for (uint32_t i = 0; i < e->count; ++i) {
@@ -168,7 +169,7 @@ lmb_status lmb_elements_rest_of(lmb_elements *inout, const double sent[3], int32
         return LMB_ERR_ARG;
     }
     for (int c = 0; c < 3; ++c) {
-        const float more = powers(kept_of(inout, sent[c], c), bounces);
+        const float more = powers(kept_by_elements(inout, sent[c], c), bounces);
         for (uint32_t i = 0; i < inout->count; ++i) {
             inout->data[i].fresh[c] *= 1.0f + more;
         }

@@ -14,9 +14,9 @@
 
 #if LMB_TREES
 
-#define ROUNDING 3e-7f /* of a cosine */
-enum { NOBODY = -1 };
-#define GOLDEN 40503u /* 2^16 / 1.618034 */
+#define COSINE_ROUNDING 3e-7f /* of a cosine */
+enum { NO_PIXEL = -1 };
+#define GOLDEN_STEP 40503u /* 2^16 / 1.618034 */
 
 size_t lmb_tree_bytes(uint32_t faces, int32_t size)
 {
@@ -68,7 +68,7 @@ static lmb_vec3 at_middle(const lmb_tile *t, int k, const lmb_view *v, float sx,
 /* 1 if the surface of pixel k meets that of another pixel before a point in the plane of k. That is so if the way to
  * the point crosses the other plane: in a corner the point is behind a wall, and on a ridge it is in the air. Crossings
  * below rounding do not count, because they block nothing. */
-static int ends_before(const lmb_tile *t, int k, int other, const lmb_view *v, lmb_vec3 place)
+static int surface_ends_before(const lmb_tile *t, int k, int other, const lmb_view *v, lmb_vec3 place)
 {
     const lmb_vec3 normal = tile_vec(t->face, other), on = tile_vec(t->position, other);
     const float here = dot3(normal, sub3(tile_vec(t->position, k), on)), there = dot3(normal, sub3(place, on));
@@ -76,8 +76,8 @@ static int ends_before(const lmb_tile *t, int k, int other, const lmb_view *v, l
 }
 
 /* Of the four pixels around a texel's centre, of which k is the last, returns one with a surface that shows at the
- * centre; NOBODY if unknown. If surfaces lie in front of each other and do not meet, any will do. at_end: pixels at the
- * end of their surface, from lmb_tile_onto_triangles. */
+ * centre; NO_PIXEL if unknown. If surfaces lie in front of each other and do not meet, any will do. at_end: pixels at
+ * the end of their surface, from lmb_tile_onto_triangles. */
 static int pixel_of_middle(const lmb_tile *t, uint64_t at_end, int k, const lmb_view *v, float sx, float sy)
 {
     const int around[4] = {k, k - 1, k - LMB_TILE, k - LMB_TILE - 1};
@@ -85,17 +85,17 @@ static int pixel_of_middle(const lmb_tile *t, uint64_t at_end, int k, const lmb_
         const lmb_vec3 place = at_middle(t, around[i], v, sx, sy);
         int ends = t->id[around[i]] == 0 || (at_end >> around[i] & 1u);
         for (int j = 0; j < 4 && !ends; ++j) {
-            ends = t->id[around[j]] != 0 && ends_before(t, around[i], around[j], v, place);
+            ends = t->id[around[j]] != 0 && surface_ends_before(t, around[i], around[j], v, place);
         }
         if (!ends) {
             return around[i];
         }
     }
-    return NOBODY;
+    return NO_PIXEL;
 }
 
 /* 1 if the surfaces of pixels a and b are connected, flat or bent. */
-static int goes_on(const lmb_tile *t, int a, int b, const lmb_view *v, float sx, float sy)
+static int plane_goes_on(const lmb_tile *t, int a, int b, const lmb_view *v, float sx, float sy)
 {
     if (t->id[a] == t->id[b] || t->id[a] == 0 || t->id[b] == 0) {
         return t->id[a] == t->id[b];
@@ -103,7 +103,7 @@ static int goes_on(const lmb_tile *t, int a, int b, const lmb_view *v, float sx,
     const lmb_vec3 d = sub3(tile_vec(t->position, a), tile_vec(t->position, b)), n = tile_vec(t->face, b);
     const float height = dot3(n, d);
     return (dot3(n, tile_vec(t->face, a)) >= TILE_COS_25 && height * height <= TILE_FLAT * TILE_FLAT * dot3(d, d)) ||
-           ends_before(t, a, b, v, at_middle(t, a, v, sx, sy));
+           surface_ends_before(t, a, b, v, at_middle(t, a, v, sx, sy));
 }
 
 /* 0 .. 2^16 - 1, uniform along each row and each column. Bits are reversed along columns, so that values do not alias
@@ -112,7 +112,7 @@ static uint32_t turn_of(int32_t x, int32_t y)
 {
     static const uint8_t reversed[8] = {0, 4, 2, 6, 1, 5, 3, 7};
     const uint32_t down = (uint32_t)reversed[y & 7] << 13 | (uint32_t)reversed[y >> 3 & 7] << 10;
-    return (down + (uint32_t)x * GOLDEN) & 0xffffu;
+    return (down + (uint32_t)x * GOLDEN_STEP) & 0xffffu;
 }
 
 /* A texel takes the surface at its centre, pixel own, or a surface in front of or behind it, in proportion to its
@@ -125,7 +125,7 @@ static int pixel_in_turn(const lmb_tile *t, int own, int k, int32_t each, const 
     uint64_t apart = 0;
     for (int i = 0; i < pixels; ++i) {
         const int at = first + i / each * LMB_TILE + i % each;
-        apart |= (uint64_t)!goes_on(t, at, own, v, sx, sy) << at;
+        apart |= (uint64_t)!plane_goes_on(t, at, own, v, sx, sy) << at;
     }
     int turn = (int)(turn_of(x, y) * (uint32_t)pixels >> 16);
     for (; turn > 0 && apart != 0; --turn) {
@@ -145,9 +145,9 @@ static int choose_pixel(int *goes, const lmb_tile *t, uint64_t at_end, int k, co
         *goes = !(at_end >> k & 1u);
         return k;
     }
-    const int found = pixel_of_middle(t, at_end, k, v, sx, sy), own = found != NOBODY ? found : k;
+    const int found = pixel_of_middle(t, at_end, k, v, sx, sy), own = found != NO_PIXEL ? found : k;
     const int turn = pixel_in_turn(t, own, k, each, v, x, y, sx, sy);
-    *goes = found != NOBODY && turn == own;
+    *goes = found != NO_PIXEL && turn == own;
     return turn;
 }
 
@@ -234,7 +234,7 @@ static const uint8_t whole_sides[4] = {SIDE_WHOLE, SIDE_WHOLE, SIDE_WHOLE, SIDE_
 static const uint8_t *sides_of(const lmb_texel *t) { return facets_are_several(t) ? whole_sides : t->side; }
 
 /* Box of the texel's cell, and of cells of neighbours that it may have a part in. u, v: whole sides. */
-static void set_box(lmb_node *out, const lmb_texel *t, lmb_vec3 u, lmb_vec3 v)
+static void set_texel_box(lmb_node *out, const lmb_texel *t, lmb_vec3 u, lmb_vec3 v)
 {
     const uint8_t *side = sides_of(t);
     float reach[4];
@@ -255,7 +255,7 @@ static void set_box(lmb_node *out, const lmb_texel *t, lmb_vec3 u, lmb_vec3 v)
 }
 
 /* Extent of a box along a direction from its middle. */
-static float reach_of(const lmb_node *n, lmb_vec3 along)
+static float reach_of_node(const lmb_node *n, lmb_vec3 along)
 {
     const float box = absf(dot3(n->normal, along)) * n->half[0] + absf(dot3(n->across, along)) * n->half[1] +
                       absf(dot3(cross3(n->normal, n->across), along)) * n->half[2];
@@ -269,7 +269,7 @@ static void add_facets_box(lmb_node *inout, const lmb_texel *t, const lmb_view *
     const lmb_vec3 middle = add3(t->position, mul3(e.ray, 0.5f * (e.up - e.down)));
     box_span box = box_begin(inout->middle, t->normal, box_across(t->normal, e.ray));
     for (int i = 0; i < 3; ++i) {
-        box_add(&box, i, 0.0f, reach_of(inout, box.axis[i]));
+        box_add(&box, i, 0.0f, reach_of_node(inout, box.axis[i]));
         box_add(&box, i, dot3(box.axis[i], sub3(middle, inout->middle)),
                 0.5f * (e.up + e.down) * absf(dot3(box.axis[i], e.ray)) + e.wide);
     }
@@ -327,7 +327,7 @@ static int texel_quad(lmb_node *out, lmb_vec3 *u, lmb_vec3 *v, const lmb_tree *t
                 high = (float)(side[SIDE_UP] + side[SIDE_DOWN]), down = (float)(side[SIDE_DOWN] - side[SIDE_UP]);
     footprint_sides(u, v, &tree->view[face], tree->size, t->position, t->normal);
     if (boxed || !is_whole) {
-        set_box(out, t, *u, *v);
+        set_texel_box(out, t, *u, *v);
     }
     if (boxed && several) {
         add_facets_box(out, t, &tree->view[face], tree->size);
@@ -367,14 +367,14 @@ void lmb_tree_texel_node(lmb_node *out, const lmb_tree *tree, uint32_t face, int
 /* cos(a + b), rounded down; -1 if a + b is over 180 degrees. */
 static float cosine_of_sum(float a, float b)
 {
-    a -= ROUNDING;
-    b -= ROUNDING;
+    a -= COSINE_ROUNDING;
+    b -= COSINE_ROUNDING;
     const float sines = sqrtf(maxf(1.0f - a * a, 0.0f) * maxf(1.0f - b * b, 0.0f));
     return a + b <= 0.0f ? -1.0f : clampf(a * b - sines, -1.0f, 1.0f);
 }
 
 /* 1 if all normals equal the first one bit by bit. */
-static int is_flat(const lmb_node child[4], const lmb_node *first)
+static int is_node_flat(const lmb_node child[4], const lmb_node *first)
 {
     int flat = 1;
     for (int i = 0; i < 4; ++i) {
@@ -386,7 +386,7 @@ static int is_flat(const lmb_node child[4], const lmb_node *first)
 }
 
 /* Direction in which the node's parts lie apart: left to right or top to bottom, whichever is longer; 0: one part. */
-static lmb_vec3 way_of(const lmb_node child[4], const lmb_node *first)
+static lmb_vec3 mean_axis_of(const lmb_node child[4], const lmb_node *first)
 {
     lmb_vec3 sum[4]; /* left, right, top, bottom */
     float count[4] = {0, 0, 0, 0};
@@ -413,12 +413,12 @@ static lmb_vec3 way_of(const lmb_node child[4], const lmb_node *first)
 
 static void join_boxes(lmb_node *out, const lmb_node child[4], const lmb_node *first)
 {
-    const lmb_vec3 way = way_of(child, first);
+    const lmb_vec3 way = mean_axis_of(child, first);
     box_span box = box_begin(first->middle, out->normal,
                              box_across(out->normal, dot3(way, way) > 0.0f ? way : first->across));
     for (int i = 0; i < 4; ++i) {
         for (int k = 0; k < 3 && flux_sum(child[i].flux) > 0.0f; ++k) {
-            box_add(&box, k, dot3(box.axis[k], sub3(child[i].middle, box.from)), reach_of(&child[i], box.axis[k]));
+            box_add(&box, k, dot3(box.axis[k], sub3(child[i].middle, box.from)), reach_of_node(&child[i], box.axis[k]));
         }
     }
     out->middle = box_middle(&box);
@@ -458,7 +458,7 @@ static void merge(lmb_node *out, const lmb_node child[4], const lmb_tree *tree, 
     if (first == NULL) {
         return;
     }
-    const int flat = is_flat(child, first);
+    const int flat = is_node_flat(child, first);
     out->centre = add3(origin, mul3(centre, 1.0f / weight));
     out->cosine = dot3(normal, normal) > 1e-37f ? 1.0f : -1.0f;
     out->normal = flat || out->cosine < 0.0f ? first->normal : normalize3(normal);
@@ -480,7 +480,7 @@ static void merge(lmb_node *out, const lmb_node child[4], const lmb_tree *tree, 
 }
 
 /* Stores how much light of texels in which planes meet is their own. Each node and pack with such a texel reads it. */
-static void set_shares(const lmb_tree *tree, uint32_t face)
+static void set_face_shares(const lmb_tree *tree, uint32_t face)
 {
     lmb_texel *all = tree->texel + (size_t)face * (size_t)tree->size * (size_t)tree->size;
     for (int32_t i = 0; i < tree->size * tree->size; ++i) {
@@ -498,7 +498,7 @@ lmb_status lmb_tree_sum(const lmb_tree *tree, uint32_t face)
     }
     if (tree->element == NULL) {
         lmb_crease_find(tree, face);
-        set_shares(tree, face);
+        set_face_shares(tree, face);
     }
     for (int level = 1; level <= tree_root_level(tree); ++level) {
         const int32_t side = tree->size >> level;

@@ -10,12 +10,12 @@
 #include "fixed_part.h"
 #include "number.h"
 
-enum { GUARD = 12, MIN_FOCAL = 16, MAX_FOCAL = 16383, MIN_NEAR = 16, MAX_NEAR = 4095 };
+enum { GUARD_WIDTHS = 12, MIN_FOCAL = 16, MAX_FOCAL = 16383, MIN_NEAR = 16, MAX_NEAR = 4095 };
 
 /* A vertex in camera space: right, up, ahead; 1/16 unit. */
-typedef struct seen_from {
+typedef struct fixed_seen_from {
     int32_t v[3], colour[3];
-} seen_from;
+} fixed_seen_from;
 
 /* Shared by all vertices of a view: the guard band in 1/16 px, and the limits of x / z and y / z in 2^-16. */
 typedef struct looking {
@@ -27,13 +27,13 @@ static looking look_through(const lmb_fixed_view *view)
 {
     const int32_t free = zeros_above((uint32_t)view->focal);
     const uint32_t per = reciprocal((uint32_t)view->focal << free);
-    looking l = {view, GUARD * view->width, GUARD * view->height, 0, 0};
+    looking l = {view, GUARD_WIDTHS * view->width, GUARD_WIDTHS * view->height, 0, 0};
     l.most_x = (int32_t)(high_of((uint32_t)l.guard_x << 16, per) >> (30 - free));
     l.most_y = (int32_t)(high_of((uint32_t)l.guard_y << 16, per) >> (30 - free));
     return l;
 }
 
-static void turn(int32_t v[3], const lmb_fixed_view *view, const int32_t at[3])
+static void turn_to_view(int32_t v[3], const lmb_fixed_view *view, const int32_t at[3])
 {
     const int32_t x = at[0] - view->eye[0], y = at[1] - view->eye[1], z = at[2] - view->eye[2];
     const int32_t *right = view->axis[0], *up = view->axis[1], *back = view->axis[2];
@@ -43,9 +43,10 @@ static void turn(int32_t v[3], const lmb_fixed_view *view, const int32_t at[3])
 }
 
 /* Distance inside of a plane, in 31 bits: near, left, right, below, above. */
-static int32_t inside(const int32_t v[3], const lmb_fixed_view *view, int plane)
+static int32_t distance_inside(const int32_t v[3], const lmb_fixed_view *view, int plane)
 {
-    const int64_t to = plane < 3 ? (int64_t)GUARD * view->width * v[2] : (int64_t)GUARD * view->height * v[2],
+    const int64_t to = plane < 3 ? (int64_t)GUARD_WIDTHS * view->width * v[2]
+                                 : (int64_t)GUARD_WIDTHS * view->height * v[2],
                   own = (int64_t)view->focal * v[plane < 3 ? 0 : 1];
     return plane == 0 ? v[2] - 16 * view->near_units : (int32_t)((plane & 1 ? to + own : to - own) >> 5);
 }
@@ -71,7 +72,7 @@ static uint8_t outside(const int32_t v[3], const lmb_fixed_view *view)
 {
     uint32_t flags = 0;
     for (int plane = 0; plane < 5; ++plane) {
-        flags |= (uint32_t)(inside(v, view, plane) < 0) << plane;
+        flags |= (uint32_t)(distance_inside(v, view, plane) < 0) << plane;
     }
     return (uint8_t)flags;
 }
@@ -80,7 +81,7 @@ static void place_vertex(lmb_fixed_vertex *out, const looking *l, const uint32_t
 {
     int32_t at[3], v[3], p[3];
     fixed_place_of(at, word);
-    turn(v, l->view, at);
+    turn_to_view(v, l->view, at);
     out->flags = 0;
     if (v[2] < 16 * l->view->near_units) {
         out->flags = outside(v, l->view);
@@ -97,7 +98,8 @@ static void place_vertex(lmb_fixed_vertex *out, const looking *l, const uint32_t
 /* --- clipping ----------------------------------------------------------------------------------------------------- */
 
 /* Cuts from a, inside, to b, outside. */
-static void cut(seen_from *out, const seen_from *a, const seen_from *b, int32_t in, int32_t beyond)
+static void cut_edge_units(fixed_seen_from *out, const fixed_seen_from *a, const fixed_seen_from *b, int32_t in,
+                           int32_t beyond)
 {
     const uint32_t whole = (uint32_t)in + (uint32_t)-beyond;
     const int32_t free = zeros_above(whole);
@@ -110,35 +112,36 @@ static void cut(seen_from *out, const seen_from *a, const seen_from *b, int32_t 
 
 /* Always cuts from the inside to the outside, so that neighbours cut a shared edge at one place. Rounding may leave a
  * shape that is not quite convex: excess corners are dropped. */
-static int cut_plane(seen_from *out, const seen_from *p, int count, const lmb_fixed_view *view, int plane)
+static int cut_by_view_plane(fixed_seen_from *out, const fixed_seen_from *p, int count, const lmb_fixed_view *view,
+                             int plane)
 {
     int n = 0;
     for (int i = 0; i < count && n + 2 <= FIXED_CORNERS; ++i) {
-        const seen_from *a = &p[i], *b = &p[i + 1 < count ? i + 1 : 0];
-        const int32_t at = inside(a->v, view, plane), bt = inside(b->v, view, plane);
+        const fixed_seen_from *a = &p[i], *b = &p[i + 1 < count ? i + 1 : 0];
+        const int32_t at = distance_inside(a->v, view, plane), bt = distance_inside(b->v, view, plane);
         if (at >= 0) {
             out[n++] = *a;
         }
         if (at >= 0 && bt < 0) {
-            cut(&out[n++], a, b, at, bt);
+            cut_edge_units(&out[n++], a, b, at, bt);
         } else if (at < 0 && bt >= 0) {
-            cut(&out[n++], b, a, bt, at);
+            cut_edge_units(&out[n++], b, a, bt, at);
         }
     }
     return n;
 }
 
 /* 1 if a corner is outside the plane; usually all are inside. */
-static int is_cut(const seen_from *p, int count, const lmb_fixed_view *view, int plane)
+static int is_cut(const fixed_seen_from *p, int count, const lmb_fixed_view *view, int plane)
 {
     int32_t any = 0;
     for (int i = 0; i < count; ++i) {
-        any |= inside(p[i].v, view, plane);
+        any |= distance_inside(p[i].v, view, plane);
     }
     return any < 0;
 }
 
-static void triangle_of(uint32_t out[3], const lmb_fixed *s, uint32_t triangle)
+static void fixed_triangle(uint32_t out[3], const lmb_fixed *s, uint32_t triangle)
 {
     const uint32_t *t = s->triangle + 2 * triangle;
     out[0] = t[0] & 0xffffu, out[1] = t[0] >> 16, out[2] = t[1];
@@ -146,22 +149,22 @@ static void triangle_of(uint32_t out[3], const lmb_fixed *s, uint32_t triangle)
 
 int lmb_fixed_clip(lmb_fixed_vertex out[FIXED_CORNERS], const lmb_fixed_frame *f, uint32_t triangle)
 {
-    seen_from one[FIXED_CORNERS], other[FIXED_CORNERS], *a = one, *b = other, *swap;
+    fixed_seen_from one[FIXED_CORNERS], other[FIXED_CORNERS], *a = one, *b = other, *swap;
     uint32_t vertex[3];
     int count = 3;
     const looking l = look_through(&f->view);
-    triangle_of(vertex, f->scene, triangle);
+    fixed_triangle(vertex, f->scene, triangle);
     for (int i = 0; i < 3; ++i) {
         int32_t at[3];
         fixed_place_of(at, f->scene->receiver + LMB_FIXED_RECEIVER_WORDS * vertex[i]);
-        turn(a[i].v, &f->view, at);
+        turn_to_view(a[i].v, &f->view, at);
         for (int c = 0; c < 3; ++c) {
             a[i].colour[c] = f->vertex[vertex[i]].colour[c];
         }
     }
     for (int plane = 0; plane < 5 && count >= 3; ++plane) {
         if (is_cut(a, count, &f->view, plane)) {
-            count = cut_plane(b, a, count, &f->view, plane);
+            count = cut_by_view_plane(b, a, count, &f->view, plane);
             swap = a, a = b, b = swap;
         }
     }
@@ -179,13 +182,14 @@ int lmb_fixed_clip(lmb_fixed_vertex out[FIXED_CORNERS], const lmb_fixed_frame *f
 
 /* --- visible triangles -------------------------------------------------------------------------------------------- */
 
-static int32_t area_of(int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t x2, int32_t y2)
+static int32_t screen_area(int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t x2, int32_t y2)
 {
     return (x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0);
 }
 
 /* Sets the rows with centres in between. Returns 1 if there are any, and pixels across. */
-static int set_rows(lmb_fixed_seen *out, const lmb_fixed_view *view, int32_t x0, int32_t x1, int32_t y0, int32_t y1)
+static int set_seen_rows(lmb_fixed_seen *out, const lmb_fixed_view *view, int32_t x0, int32_t x1, int32_t y0,
+                         int32_t y1)
 {
     const int32_t first = maxi((y0 + 7) >> 4, 0), past = mini((y1 + 7) >> 4, view->height);
     out->first = (int16_t)first;
@@ -207,26 +211,26 @@ static uint32_t see_cut(lmb_fixed_seen *out, const lmb_fixed_frame *f, uint32_t 
         x0 = mini(x0, c[i].x), x1 = maxi(x1, c[i].x), y0 = mini(y0, c[i].y), y1 = maxi(y1, c[i].y);
     }
     for (int i = 2; i < count; ++i) {
-        area += area_of(c[0].x, c[0].y, c[i - 1].x, c[i - 1].y, c[i].x, c[i].y);
+        area += screen_area(c[0].x, c[0].y, c[i - 1].x, c[i - 1].y, c[i].x, c[i].y);
     }
-    return area < 0 && set_rows(out, &f->view, x0, x1, y0, y1) ? (uint32_t)(count - 2) : 0;
+    return area < 0 && set_seen_rows(out, &f->view, x0, x1, y0, y1) ? (uint32_t)(count - 2) : 0;
 }
 
 static uint32_t see(lmb_fixed_seen *out, const lmb_fixed_frame *f, uint32_t triangle)
 {
     uint32_t vertex[3];
-    triangle_of(vertex, f->scene, triangle);
+    fixed_triangle(vertex, f->scene, triangle);
     const lmb_fixed_vertex *a = &f->vertex[vertex[0]], *b = &f->vertex[vertex[1]], *c = &f->vertex[vertex[2]];
     out->triangle = (uint16_t)triangle;
     if (((a->flags | b->flags | c->flags) & FIXED_OUTSIDE) != 0) {
         out->triangle |= FIXED_CUT;
         return (a->flags & b->flags & c->flags & FIXED_OUTSIDE) == 0 ? see_cut(out, f, triangle) : 0;
     }
-    if (area_of(a->x, a->y, b->x, b->y, c->x, c->y) >= 0) {
+    if (screen_area(a->x, a->y, b->x, b->y, c->x, c->y) >= 0) {
         return 0;
     }
-    return (uint32_t)set_rows(out, &f->view, mini(a->x, mini(b->x, c->x)), maxi(a->x, maxi(b->x, c->x)),
-                              mini(a->y, mini(b->y, c->y)), maxi(a->y, maxi(b->y, c->y)));
+    return (uint32_t)set_seen_rows(out, &f->view, mini(a->x, mini(b->x, c->x)), maxi(a->x, maxi(b->x, c->x)),
+                                   mini(a->y, mini(b->y, c->y)), maxi(a->y, maxi(b->y, c->y)));
 }
 
 static int is_between(int32_t v, int32_t low, int32_t high) { return v >= low && v <= high; }
@@ -237,7 +241,7 @@ static int has_memory(const lmb_fixed_frame *f)
            f->group != NULL;
 }
 
-static int is_view(const lmb_fixed_view *v)
+static int is_fixed_view(const lmb_fixed_view *v)
 {
     for (int i = 0; i < 3; ++i) {
         int64_t length = 0;
@@ -267,7 +271,7 @@ static void set_groups(const lmb_fixed_frame *f)
 
 lmb_status lmb_fixed_transform(lmb_fixed_frame *f)
 {
-    if (!has_memory(f) || !is_view(&f->view)) {
+    if (!has_memory(f) || !is_fixed_view(&f->view)) {
         return LMB_ERR_ARG;
     }
     const lmb_fixed *s = f->scene;
@@ -281,7 +285,7 @@ lmb_status lmb_fixed_transform(lmb_fixed_frame *f)
         const uint32_t count = see(first, f, t);
         if (count > 0 && count <= f->seen_cap - f->seen_count) {
             uint32_t vertex[3];
-            triangle_of(vertex, s, t);
+            fixed_triangle(vertex, s, t);
             for (int i = 0; i < 3; ++i) {
                 f->vertex[vertex[i]].flags |= FIXED_USED;
             }
@@ -324,7 +328,7 @@ static void prepare_cut(lmb_fixed_ready *out, int places, const lmb_fixed_frame 
 
 lmb_status lmb_fixed_prepare(lmb_fixed_frame *f)
 {
-    if (!has_memory(f) || !is_view(&f->view)) {
+    if (!has_memory(f) || !is_fixed_view(&f->view)) {
         return LMB_ERR_ARG;
     }
     f->ready_count = 0;
@@ -376,7 +380,7 @@ lmb_status lmb_fixed_band(const lmb_fixed_frame *f, int32_t first, int32_t past)
     void *pixel = f != NULL && f->format != LMB_FIXED_RGB888 ? (void *)f->pixel_16
                   : f != NULL                                ? (void *)f->pixel
                                                              : NULL;
-    if (!has_memory(f) || !is_view(&f->view) || pixel == NULL || f->depth == NULL || first < 0 || past <= first ||
+    if (!has_memory(f) || !is_fixed_view(&f->view) || pixel == NULL || f->depth == NULL || first < 0 || past <= first ||
         past > f->view.height || f->format < 0 || f->format > LMB_FIXED_RGBA5551) {
         return LMB_ERR_ARG;
     }

@@ -8,14 +8,14 @@
 #include "fixed_part.h"
 #include "number.h"
 
-typedef struct edge {
+typedef struct fixed_edge {
     int32_t x, y, slope; /* 1/16 px; slope in 2^-14 */
-} edge;
+} fixed_edge;
 
-static edge edge_of(const lmb_fixed_vertex *from, const lmb_fixed_vertex *to)
+static fixed_edge fixed_edge_of(const lmb_fixed_vertex *from, const lmb_fixed_vertex *to)
 {
     const int32_t down = to->y - from->y;
-    edge e = {from->x, from->y, 0};
+    fixed_edge e = {from->x, from->y, 0};
     if (down > 0) {
         const int32_t free = zeros_above((uint32_t)down);
         const uint32_t per = reciprocal((uint32_t)down << free);
@@ -26,15 +26,18 @@ static edge edge_of(const lmb_fixed_vertex *from, const lmb_fixed_vertex *to)
 }
 
 /* x in 2^-14 px, for a row with the centre between the edge's ends. */
-static int32_t edge_at(const edge *e, int32_t middle) { return e->x * 1024 + ((e->slope * (middle - e->y)) >> 4); }
+static int32_t fixed_edge_at(const fixed_edge *e, int32_t middle)
+{
+    return e->x * 1024 + ((e->slope * (middle - e->y)) >> 4);
+}
 
 /* The first pixel with a centre not left of x. */
-static int32_t first_pixel(int32_t x) { return (x + 8191) >> 14; }
+static int32_t first_fixed_pixel(int32_t x) { return (x + 8191) >> 14; }
 
 /* A linear value on the triangle: at the first corner, and per 1/16 px. */
-typedef struct plane {
+typedef struct fixed_plane {
     uint32_t at, per_x, per_y;
-} plane;
+} fixed_plane;
 
 /* Values of a triangle that all planes need. */
 typedef struct slant {
@@ -60,21 +63,21 @@ static uint32_t share(const slant *s, int32_t n, int32_t bits)
     return (uint32_t)signed_high_of(left >= 0 ? n * (1 << left) : n >> -left, s->per);
 }
 
-static int is_gentle(const plane *p, uint32_t most_of)
+static int is_gentle(const fixed_plane *p, uint32_t most_of)
 {
     return p->per_x + most_of <= 2u * most_of && p->per_y + most_of <= 2u * most_of;
 }
 
-static uint32_t mean_of(int32_t f0, int32_t f1, int32_t f2) { return (uint32_t)(f0 + f1 + f2) * 21845u >> 16; }
+static uint32_t mean_of_thirds(int32_t f0, int32_t f1, int32_t f2) { return (uint32_t)(f0 + f1 + f2) * 21845u >> 16; }
 
 /* Returns 1 if the plane is gentle. A triangle so steep that the whole change is within 1/16 px gets the mean of the
  * corners. Depth differences are below 65,504, and coordinates below 15,361 because of the guard band: the two products
  * together fit 31 bits. */
-static int set_depth(plane *out, const slant *s, int32_t f0, int32_t f1, int32_t f2)
+static int set_fixed_depth(fixed_plane *out, const slant *s, int32_t f0, int32_t f1, int32_t f2)
 {
     const int32_t a = f1 - f0, b = f2 - f0, x = a * s->y2 - b * s->y1, y = b * s->x1 - a * s->x2;
     if ((x < 0 ? -x : x) >> DEPTH_STEEP > s->area || (y < 0 ? -y : y) >> DEPTH_STEEP > s->area) {
-        out->at = mean_of(f0, f1, f2) << DEPTH_BITS;
+        out->at = mean_of_thirds(f0, f1, f2) << DEPTH_BITS;
         out->per_x = out->per_y = 0;
         return 1;
     }
@@ -85,11 +88,11 @@ static int set_depth(plane *out, const slant *s, int32_t f0, int32_t f1, int32_t
 }
 
 /* The same, plus half a code for rounding. */
-static int set_colour(plane *out, const slant *s, int32_t f0, int32_t f1, int32_t f2)
+static int set_colour(fixed_plane *out, const slant *s, int32_t f0, int32_t f1, int32_t f2)
 {
     const int32_t a = f1 - f0, b = f2 - f0, x = a * s->y2 - b * s->y1, y = b * s->x1 - a * s->x2;
     if ((x < 0 ? -x : x) >> COLOUR_STEEP > s->area || (y < 0 ? -y : y) >> COLOUR_STEEP > s->area) {
-        out->at = (mean_of(f0, f1, f2) << COLOUR_BITS) + 32768u;
+        out->at = (mean_of_thirds(f0, f1, f2) << COLOUR_BITS) + 32768u;
         out->per_x = out->per_y = 0;
         return 1;
     }
@@ -101,10 +104,10 @@ static int set_colour(plane *out, const slant *s, int32_t f0, int32_t f1, int32_
 
 /* The first pixel of a row, and the step to the next: depth; colours in 1/256 of a code, 16 bits each. `dither`: added
  * to the colours of each pixel from the first one on. */
-typedef struct span {
+typedef struct row_span {
     uint32_t depth, depth_step, red, green, blue, red_step, green_step, blue_step;
     const uint16_t *dither;
-} span;
+} row_span;
 
 /* Bayer's 4 x 4 matrix of 0 .. 15, halved. Each row is repeated, so that a span may begin at any of the first four. */
 #define D(t) ((t) / 2u * 256u)
@@ -112,7 +115,7 @@ typedef struct span {
 static const uint16_t dithers[4][8] = {ROW(0, 8, 2, 10), ROW(12, 4, 14, 6), ROW(3, 11, 1, 9), ROW(15, 7, 13, 5)};
 
 /* Dithered colours -> a 16-bit pixel; or several at once, each in 16 bits of a word of `type`. */
-#define EACH(type, v) ((type)-1 / 0xffffu * (v))
+#define IN_EACH_HALF(type, v)         ((type)-1 / 0xffffu * (v))
 #define PACK_555(high, one, r, g, b) (((((r) & (high)) >> 5 | ((g) & (high))) >> 5 | ((b) & (high))) >> 1)
 #define PACK_5551(high, one, r, g, b) (((r) & (high)) | (((g) & (high)) | ((b) & (high)) >> 5) >> 5 | (one))
 
@@ -133,46 +136,47 @@ typedef uint32_t __attribute__((may_alias)) two_pixels;
 #else
 #define IN_MEMORY(two) (two)
 #endif
-#define STORE_TWO(place, pack, which)                                                                     \
-    {                                                                                                     \
-        const uint32_t two = pack(high, EACH(uint32_t, 1u), reds_##which, greens_##which, blues_##which); \
-        *(two_pixels *)(void *)(to + (place)) = IN_MEMORY(two);                                           \
+#define STORE_TWO(place, pack, which) \
+    { \
+        const uint32_t two = pack(high, IN_EACH_HALF(uint32_t, 1u), reds_##which, greens_##which, blues_##which); \
+        *(two_pixels *)(void *)(to + (place)) = IN_MEMORY(two); \
     }
-#define HULL_LOOP(pack)                                                                                      \
-    if (((uintptr_t)to & 2u) != 0) {                                                                         \
-        HULL_PIXEL(pack)                                                                                     \
-    }                                                                                                        \
-    uint32_t high = EACH(uint32_t, 0xf800u);                                                                 \
-    KEEP(high);                                                                                              \
-    const uint32_t dither_0 = dither[0] | (uint32_t)dither[1] << 16,                                         \
-                   dither_1 = (dither[2] | (uint32_t)dither[3] << 16) - dither_0;                            \
-    uint32_t reds_0 = EACH(uint32_t, red) + (s->red_step << 16) + dither_0,                                  \
-             greens_0 = EACH(uint32_t, green) + (s->green_step << 16) + dither_0,                            \
-             blues_0 = EACH(uint32_t, blue) + (s->blue_step << 16) + dither_0,                               \
-             reds_1 = reds_0 + EACH(uint32_t, 2u * s->red_step) + dither_1,                                  \
-             greens_1 = greens_0 + EACH(uint32_t, 2u * s->green_step) + dither_1,                            \
-             blues_1 = blues_0 + EACH(uint32_t, 2u * s->blue_step) + dither_1;                               \
-    const uint32_t red_by = EACH(uint32_t, 4u * s->red_step), green_by = EACH(uint32_t, 4u * s->green_step), \
-                   blue_by = EACH(uint32_t, 4u * s->blue_step);                                              \
-    for (const uint16_t *const fours = to + ((past - to) & ~3); to != fours; to += 4) {                      \
-        KEEP(reds_0);                                                                                        \
-        KEEP(greens_0);                                                                                      \
-        KEEP(blues_0);                                                                                       \
-        KEEP(reds_1);                                                                                        \
-        KEEP(greens_1);                                                                                      \
-        KEEP(blues_1);                                                                                       \
-        STORE_TWO(0, pack, 0)                                                                                \
-        STORE_TWO(2, pack, 1)                                                                                \
-        reds_0 += red_by, greens_0 += green_by, blues_0 += blue_by;                                          \
-        reds_1 += red_by, greens_1 += green_by, blues_1 += blue_by;                                          \
-    }                                                                                                        \
-    if (past - to >= 2) {                                                                                    \
-        STORE_TWO(0, pack, 0)                                                                                \
-        to += 2;                                                                                             \
-        reds_0 = reds_1, greens_0 = greens_1, blues_0 = blues_1;                                             \
-    }                                                                                                        \
-    if (to != past) {                                                                                        \
-        *to = (uint16_t)pack(high, 1u, reds_0, greens_0, blues_0);                                           \
+#define HULL_LOOP(pack) \
+    if (((uintptr_t)to & 2u) != 0) { \
+        HULL_PIXEL(pack) \
+    } \
+    uint32_t high = IN_EACH_HALF(uint32_t, 0xf800u); \
+    KEEP(high); \
+    const uint32_t dither_0 = dither[0] | (uint32_t)dither[1] << 16, \
+                   dither_1 = (dither[2] | (uint32_t)dither[3] << 16) - dither_0; \
+    uint32_t reds_0 = IN_EACH_HALF(uint32_t, red) + (s->red_step << 16) + dither_0, \
+             greens_0 = IN_EACH_HALF(uint32_t, green) + (s->green_step << 16) + dither_0, \
+             blues_0 = IN_EACH_HALF(uint32_t, blue) + (s->blue_step << 16) + dither_0, \
+             reds_1 = reds_0 + IN_EACH_HALF(uint32_t, 2u * s->red_step) + dither_1, \
+             greens_1 = greens_0 + IN_EACH_HALF(uint32_t, 2u * s->green_step) + dither_1, \
+             blues_1 = blues_0 + IN_EACH_HALF(uint32_t, 2u * s->blue_step) + dither_1; \
+    const uint32_t red_by = IN_EACH_HALF(uint32_t, 4u * s->red_step), \
+                   green_by = IN_EACH_HALF(uint32_t, 4u * s->green_step), \
+                   blue_by = IN_EACH_HALF(uint32_t, 4u * s->blue_step); \
+    for (const uint16_t *const fours = to + ((past - to) & ~3); to != fours; to += 4) { \
+        KEEP(reds_0); \
+        KEEP(greens_0); \
+        KEEP(blues_0); \
+        KEEP(reds_1); \
+        KEEP(greens_1); \
+        KEEP(blues_1); \
+        STORE_TWO(0, pack, 0) \
+        STORE_TWO(2, pack, 1) \
+        reds_0 += red_by, greens_0 += green_by, blues_0 += blue_by; \
+        reds_1 += red_by, greens_1 += green_by, blues_1 += blue_by; \
+    } \
+    if (past - to >= 2) { \
+        STORE_TWO(0, pack, 0) \
+        to += 2; \
+        reds_0 = reds_1, greens_0 = greens_1, blues_0 = blues_1; \
+    } \
+    if (to != past) { \
+        *to = (uint16_t)pack(high, 1u, reds_0, greens_0, blues_0); \
     }
 
 #else
@@ -190,50 +194,52 @@ typedef uint32_t __attribute__((may_alias)) two_pixels;
     }
 
 /* The two loops of a format: with a depth test, two by two; and for the hull, which is behind all else. */
-#define LOOPS(name, pack)                                                                                          \
-    static void fill_deep_##name(void *pixels, uint16_t *to_depth, int32_t count, const span *s)                   \
-    {                                                                                                              \
-        uint16_t *to = (uint16_t *)pixels, *const past = to + count;                                               \
-        const uint16_t *dither = s->dither;                                                                        \
-        uint32_t depth = s->depth, red = s->red, green = s->green, blue = s->blue;                                 \
-        if (count & 1) {                                                                                           \
-            const uint32_t depth_0 = depth >> DEPTH_BITS, d = *dither++;                                           \
-            DEEP_PIXEL(0, pack(0xf800u, 1u, red + d, green + d, blue + d))                                         \
-            depth += s->depth_step, red += s->red_step, green += s->green_step, blue += s->blue_step;              \
-            ++to, ++to_depth;                                                                                      \
-        }                                                                                                          \
-        const uint32_t depth_step = s->depth_step, red_by = EACH(uint32_t, 2u * s->red_step),                      \
-                       green_by = EACH(uint32_t, 2u * s->green_step), blue_by = EACH(uint32_t, 2u * s->blue_step); \
-        uint32_t high = EACH(uint32_t, 0xf800u);                                                                   \
-        KEEP(high);                                                                                                \
-        uint32_t d = dither[0] | (uint32_t)dither[1] << 16;                                                        \
-        const uint32_t other = d ^ (dither[2] | (uint32_t)dither[3] << 16);                                        \
-        red = EACH(uint32_t, red) + (s->red_step << 16), green = EACH(uint32_t, green) + (s->green_step << 16);    \
-        blue = EACH(uint32_t, blue) + (s->blue_step << 16);                                                        \
-        for (; to != past; to += 2, to_depth += 2, d ^= other) {                                                   \
-            const uint32_t depth_0 = depth >> DEPTH_BITS, depth_1 = (depth + depth_step) >> DEPTH_BITS;            \
-            depth += 2 * depth_step;                                                                               \
-            if (depth_0 > to_depth[0] || depth_1 > to_depth[1]) {                                                  \
-                const uint32_t two = pack(high, EACH(uint32_t, 1u), red + d, green + d, blue + d);                 \
-                DEEP_PIXEL(0, two)                                                                                 \
-                DEEP_PIXEL(1, two >> 16)                                                                           \
-            }                                                                                                      \
-            red += red_by, green += green_by, blue += blue_by;                                                     \
-        }                                                                                                          \
-    }                                                                                                              \
-    static void fill_hull_##name(void *pixels, uint16_t *to_depth, int32_t count, const span *s)                   \
-    {                                                                                                              \
-        uint16_t *to = (uint16_t *)pixels, *const past = to + count;                                               \
-        const uint16_t *dither = s->dither;                                                                        \
-        uint32_t red = s->red, green = s->green, blue = s->blue;                                                   \
-        (void)to_depth;                                                                                            \
-        HULL_LOOP(pack)                                                                                            \
+#define LOOPS(name, pack) \
+    static void fill_deep_##name(void *pixels, uint16_t *to_depth, int32_t count, const row_span *s) \
+    { \
+        uint16_t *to = (uint16_t *)pixels, *const past = to + count; \
+        const uint16_t *dither = s->dither; \
+        uint32_t depth = s->depth, red = s->red, green = s->green, blue = s->blue; \
+        if (count & 1) { \
+            const uint32_t depth_0 = depth >> DEPTH_BITS, d = *dither++; \
+            DEEP_PIXEL(0, pack(0xf800u, 1u, red + d, green + d, blue + d)) \
+            depth += s->depth_step, red += s->red_step, green += s->green_step, blue += s->blue_step; \
+            ++to, ++to_depth; \
+        } \
+        const uint32_t depth_step = s->depth_step, red_by = IN_EACH_HALF(uint32_t, 2u * s->red_step), \
+                       green_by = IN_EACH_HALF(uint32_t, 2u * s->green_step), \
+                       blue_by = IN_EACH_HALF(uint32_t, 2u * s->blue_step); \
+        uint32_t high = IN_EACH_HALF(uint32_t, 0xf800u); \
+        KEEP(high); \
+        uint32_t d = dither[0] | (uint32_t)dither[1] << 16; \
+        const uint32_t other = d ^ (dither[2] | (uint32_t)dither[3] << 16); \
+        red = IN_EACH_HALF(uint32_t, red) + (s->red_step << 16), \
+        green = IN_EACH_HALF(uint32_t, green) + (s->green_step << 16); \
+        blue = IN_EACH_HALF(uint32_t, blue) + (s->blue_step << 16); \
+        for (; to != past; to += 2, to_depth += 2, d ^= other) { \
+            const uint32_t depth_0 = depth >> DEPTH_BITS, depth_1 = (depth + depth_step) >> DEPTH_BITS; \
+            depth += 2 * depth_step; \
+            if (depth_0 > to_depth[0] || depth_1 > to_depth[1]) { \
+                const uint32_t two = pack(high, IN_EACH_HALF(uint32_t, 1u), red + d, green + d, blue + d); \
+                DEEP_PIXEL(0, two) \
+                DEEP_PIXEL(1, two >> 16) \
+            } \
+            red += red_by, green += green_by, blue += blue_by; \
+        } \
+    } \
+    static void fill_hull_##name(void *pixels, uint16_t *to_depth, int32_t count, const row_span *s) \
+    { \
+        uint16_t *to = (uint16_t *)pixels, *const past = to + count; \
+        const uint16_t *dither = s->dither; \
+        uint32_t red = s->red, green = s->green, blue = s->blue; \
+        (void)to_depth; \
+        HULL_LOOP(pack) \
     }
 LOOPS(555, PACK_555)
 LOOPS(5551, PACK_5551)
 
 /* 8-bit colours: red lies above blue in one word, because sums of blue stay within 16 bits. */
-static void fill_hull_888(void *pixels, uint16_t *to_depth, int32_t count, const span *s)
+static void fill_hull_888(void *pixels, uint16_t *to_depth, int32_t count, const row_span *s)
 {
     uint32_t *to = (uint32_t *)pixels, red_blue = (s->red << 16) + s->blue, green = s->green;
     const uint32_t red_blue_step = (s->red_step << 16) + s->blue_step, green_step = s->green_step;
@@ -253,7 +259,7 @@ static void fill_hull_888(void *pixels, uint16_t *to_depth, int32_t count, const
     }                                                                \
     depth += depth_step, red_blue += red_blue_step, green += green_step;
 
-static void fill_deep_888(void *pixels, uint16_t *to_depth, int32_t count, const span *s)
+static void fill_deep_888(void *pixels, uint16_t *to_depth, int32_t count, const row_span *s)
 {
     uint32_t *to = (uint32_t *)pixels, depth = s->depth, red_blue = (s->red << 16) + s->blue, green = s->green;
     const uint32_t depth_step = s->depth_step, red_blue_step = (s->red_step << 16) + s->blue_step,
@@ -269,7 +275,7 @@ static void fill_deep_888(void *pixels, uint16_t *to_depth, int32_t count, const
     }
 }
 
-typedef void fill_loop(void *pixels, uint16_t *to_depth, int32_t count, const span *s);
+typedef void fill_loop(void *pixels, uint16_t *to_depth, int32_t count, const row_span *s);
 
 static fill_loop *loop_of(const fixed_band *b)
 {
@@ -283,8 +289,8 @@ static int32_t bytes_log2(const fixed_band *b) { return b->format == LMB_FIXED_R
 
 void lmb_fixed_clear(const fixed_band *b, uint32_t colour)
 {
-    static const span nothing = {0};
-    span s = nothing;
+    static const row_span nothing = {0};
+    row_span s = nothing;
     s.red = colour >> 8 & 0xff00u, s.green = colour & 0xff00u, s.blue = (colour & 255u) << 8;
     for (int32_t y = b->first; y < b->past; ++y) {
         s.dither = dithers[y & 3];
@@ -293,15 +299,15 @@ void lmb_fixed_clear(const fixed_band *b, uint32_t colour)
 }
 
 /* A value along a row. */
-typedef struct ramp {
+typedef struct fixed_ramp {
     uint32_t at;
     int32_t step;
-} ramp;
+} fixed_ramp;
 
 /* Pixel centres beside an edge may lie slightly outside the triangle: clamps both ends to 0 .. max. */
-static ramp ramp_within(uint32_t from, int32_t step, int32_t count, int32_t max)
+static fixed_ramp ramp_within(uint32_t from, int32_t step, int32_t count, int32_t max)
 {
-    ramp r = {from, step};
+    fixed_ramp r = {from, step};
     if (from <= (uint32_t)max && from + (uint32_t)step * (uint32_t)(count - 1) <= (uint32_t)max) {
         return r;
     }
@@ -321,16 +327,17 @@ static ramp ramp_within(uint32_t from, int32_t step, int32_t count, int32_t max)
 /* The step in 1/256 of a code. */
 static int32_t colour_step(uint32_t to_x) { return (int32_t)(to_x + 128u) >> 8; }
 
-static ramp colour_ramp(uint32_t from, uint32_t to_x, int32_t count)
+static fixed_ramp colour_ramp(uint32_t from, uint32_t to_x, int32_t count)
 {
     return ramp_within((uint32_t)((int32_t)from >> 8), colour_step(to_x), count, FIXED_TOP);
 }
 
 /* For triangles that are not gentle; they are rare. */
-NOINLINE void set_steep(span *s, const uint32_t at[4], const uint32_t per_x[4], int32_t count)
+NOINLINE void set_steep(row_span *s, const uint32_t at[4], const uint32_t per_x[4], int32_t count)
 {
-    const ramp d = ramp_within(at[0], (int32_t)per_x[0], count, 0x3fffffff), r = colour_ramp(at[1], per_x[1], count),
-               g = colour_ramp(at[2], per_x[2], count), b = colour_ramp(at[3], per_x[3], count);
+    const fixed_ramp d = ramp_within(at[0], (int32_t)per_x[0], count, 0x3fffffff),
+                     r = colour_ramp(at[1], per_x[1], count), g = colour_ramp(at[2], per_x[2], count),
+                     b = colour_ramp(at[3], per_x[3], count);
     s->depth = d.at, s->depth_step = (uint32_t)d.step;
     s->red = r.at, s->green = g.at, s->blue = b.at;
     s->red_step = (uint32_t)r.step, s->green_step = (uint32_t)g.step, s->blue_step = (uint32_t)b.step;
@@ -356,7 +363,7 @@ ALWAYS_INLINE void fill_rows(const fixed_band *b, const lmb_fixed_ready *r, int3
     uint16_t *to_depth = is_deep ? b->depth + above : NULL;
     fill_loop *const loop = loop_of(b);
     int32_t at = 0; /* the pixel of the current values */
-    span s;
+    row_span s;
     s.depth_step = depth_x, s.red_step = (uint32_t)colour_step(red_x), s.green_step = (uint32_t)colour_step(green_x);
     s.blue_step = (uint32_t)colour_step(blue_x);
     const lmb_fixed_edge *other = first < middle ? &r->upper : &r->lower;
@@ -367,8 +374,8 @@ ALWAYS_INLINE void fill_rows(const fixed_band *b, const lmb_fixed_ready *r, int3
         lmb_fixed_edge left = {is_whole_left ? whole.at : other_at, is_whole_left ? whole.slope : other->slope},
                        right = {is_whole_left ? other_at : whole.at, is_whole_left ? other->slope : whole.slope};
         for (; y < end; ++y) {
-            const int32_t x = maxi(first_pixel(left.at), most_left),
-                          count = mini(first_pixel(right.at), most_right) - x;
+            const int32_t x = maxi(first_fixed_pixel(left.at), most_left),
+                          count = mini(first_fixed_pixel(right.at), most_right) - x;
             if (count > 0) {
                 const int32_t by = x - at;
                 if (by == 1) {
@@ -424,14 +431,14 @@ void lmb_fixed_fill(const fixed_band *b, const lmb_fixed_ready *r)
 }
 
 /* Sets an edge at the centre of a row. */
-static void set_edge(lmb_fixed_edge *out, const lmb_fixed_vertex *from, const lmb_fixed_vertex *to, int32_t row)
+static void set_fixed_edge(lmb_fixed_edge *out, const lmb_fixed_vertex *from, const lmb_fixed_vertex *to, int32_t row)
 {
-    const edge e = edge_of(from, to);
-    out->at = edge_at(&e, 16 * row + 8);
+    const fixed_edge e = fixed_edge_of(from, to);
+    out->at = fixed_edge_at(&e, 16 * row + 8);
     out->slope = e.slope;
 }
 
-static void set_number(lmb_fixed_ready *out, int i, const plane *p, const lmb_fixed_vertex *c)
+static void set_number(lmb_fixed_ready *out, int i, const fixed_plane *p, const lmb_fixed_vertex *c)
 {
     out->at[i] = p->at + p->per_x * (uint32_t)(8 - c->x) + p->per_y * (uint32_t)(16 * out->first + 8 - c->y);
     out->per_x[i] = p->per_x * 16u;
@@ -442,7 +449,7 @@ int lmb_fixed_set_up(lmb_fixed_ready *out, const lmb_fixed_vertex *c0, const lmb
                      const lmb_fixed_vertex *c2, int32_t width, int32_t first, int32_t past, int has_depth)
 {
     const lmb_fixed_vertex *top = c0, *middle = c1, *bottom = c2, *swap;
-    plane p;
+    fixed_plane p;
     slant s = {c1->x - c0->x, c1->y - c0->y, c2->x - c0->x, c2->y - c0->y, 0, 0, 0, 0};
     int32_t area = s.x1 * s.y2 - s.x2 * s.y1;
     if (middle->y < top->y) {
@@ -475,7 +482,7 @@ int lmb_fixed_set_up(lmb_fixed_ready *out, const lmb_fixed_vertex *c0, const lmb
     out->right = (int16_t)mini((maxi(c0->x, maxi(c1->x, c2->x)) + 8) >> 4, width);
     int is_gentle = out->right - out->left <= GENTLE_ACROSS;
     if (has_depth) {
-        is_gentle &= set_depth(&p, &s, c0->depth, c1->depth, c2->depth);
+        is_gentle &= set_fixed_depth(&p, &s, c0->depth, c1->depth, c2->depth);
         set_number(out, 0, &p, c0);
     } else {
         out->at[0] = out->per_x[0] = out->per_y[0] = 0;
@@ -487,12 +494,12 @@ int lmb_fixed_set_up(lmb_fixed_ready *out, const lmb_fixed_vertex *c0, const lmb
     out->is_gentle = (uint8_t)is_gentle;
     out->is_whole_left =
         (middle->x - top->x) * (bottom->y - top->y) - (bottom->x - top->x) * (middle->y - top->y) > 0;
-    set_edge(&out->whole, top, bottom, y0);
+    set_fixed_edge(&out->whole, top, bottom, y0);
     if (y0 < y1) {
-        set_edge(&out->upper, top, middle, y0);
+        set_fixed_edge(&out->upper, top, middle, y0);
     }
     if (y1 < y2) {
-        set_edge(&out->lower, middle, bottom, y1);
+        set_fixed_edge(&out->lower, middle, bottom, y1);
     }
     return 1;
 }

@@ -1,24 +1,24 @@
 /* fixed_light.c: light at the visible vertices: the lamp's, and reflected light by links. Layer 8.
  *
- * Light is given as the radiosity of a white surface, in 1/65536 of the picture's white: at most LIGHT_MOST. */
+ * Light is given as the radiosity of a white surface, in 1/65536 of the picture's white: at most MAX_LIGHT. */
 #include <lambent/fixed.h>
 
 #include "fixed_part.h"
 #include "number.h"
 
-enum { LIGHT_MOST = 1 << 26, FULL = 32768, AROUND = 8 };
+enum { MAX_LIGHT = 1 << 26, FULL_WEIGHT = 32768, CELL_CORNERS = 8 };
 
-/* The places around the lamp, with weights that sum to less than FULL. */
-typedef struct around {
-    uint32_t word[AROUND], bit[AROUND], weight[AROUND];
+/* The places around the lamp, with weights that sum to less than FULL_WEIGHT. */
+typedef struct cell_around {
+    uint32_t word[CELL_CORNERS], bit[CELL_CORNERS], weight[CELL_CORNERS];
     int count;
-} around;
+} cell_around;
 
 /* The same for all receivers. */
 typedef struct lamp_now {
     const lmb_fixed *s;
     const lmb_fixed_lamp *lamp;
-    around places;
+    cell_around places;
     uint32_t colour[3]; /* 16 bits: intensity / 127, in 2^-bits */
     int32_t bits;
     uint32_t per_cone; /* 2^30 / (cos_inner - cos_outer); 0: a point light */
@@ -27,7 +27,7 @@ typedef struct lamp_now {
 /* --- places ------------------------------------------------------------------------------------------------------- */
 
 /* The cell that holds a coordinate, and the position in it, 0 .. 256. */
-static int32_t cell_of(uint32_t *part, int32_t at, int32_t places, int32_t spacing)
+static int32_t cell_between(uint32_t *part, int32_t at, int32_t places, int32_t spacing)
 {
     const int32_t free = zeros_above((uint32_t)spacing);
     const uint32_t per = reciprocal((uint32_t)spacing << free); /* 2^(62 - free) / spacing */
@@ -41,17 +41,20 @@ static int32_t cell_of(uint32_t *part, int32_t at, int32_t places, int32_t spaci
     return cell;
 }
 
-static int is_valid(const lmb_fixed *s, uint32_t place) { return (int)(s->valid[place >> 5] >> (place & 31u) & 1u); }
-
-NOINLINE void find_places(around *out, const lmb_fixed *s, const int32_t at[3])
+static int is_light_place(const lmb_fixed *s, uint32_t place)
 {
-    uint32_t part[3], place[AROUND] = {0}, weight[AROUND] = {0}, sum = 0;
+    return (int)(s->valid[place >> 5] >> (place & 31u) & 1u);
+}
+
+NOINLINE void find_places(cell_around *out, const lmb_fixed *s, const int32_t at[3])
+{
+    uint32_t part[3], place[CELL_CORNERS] = {0}, weight[CELL_CORNERS] = {0}, sum = 0;
     int32_t cell[3];
     for (int i = 0; i < 3; ++i) {
-        cell[i] = cell_of(&part[i], at[i] - s->first[i], s->places[i], s->spacing);
+        cell[i] = cell_between(&part[i], at[i] - s->first[i], s->places[i], s->spacing);
     }
     out->count = 0;
-    for (int k = 0; k < AROUND; ++k) {
+    for (int k = 0; k < CELL_CORNERS; ++k) {
         uint32_t own = 1, index = 0;
         for (int i = 2; i >= 0; --i) {
             const int up = k >> i & 1;
@@ -59,7 +62,7 @@ NOINLINE void find_places(around *out, const lmb_fixed *s, const int32_t at[3])
             index = index * (uint32_t)s->places[i] + (uint32_t)mini(cell[i] + up, s->places[i] - 1);
         }
         own >>= 9; /* of 2^24 */
-        if (own > 1 && is_valid(s, index)) {
+        if (own > 1 && is_light_place(s, index)) {
             place[out->count] = index;
             weight[out->count++] = own;
             sum += own;
@@ -69,11 +72,11 @@ NOINLINE void find_places(around *out, const lmb_fixed *s, const int32_t at[3])
         const int32_t free = zeros_above(sum);
         out->word[k] = place[k] >> 5;
         out->bit[k] = place[k] & 31u;
-        out->weight[k] = high_of(weight[k] * (FULL - 1u), reciprocal(sum << free)) >> (30 - free);
+        out->weight[k] = high_of(weight[k] * (FULL_WEIGHT - 1u), reciprocal(sum << free)) >> (30 - free);
     }
 }
 
-static uint32_t seen_of(const around *a, const uint32_t *seen)
+static uint32_t seen_of(const cell_around *a, const uint32_t *seen)
 {
     uint32_t sum = 0;
     for (int k = 0; k < a->count; ++k) {
@@ -109,7 +112,7 @@ static void set_lamp(lamp_now *out, const lmb_fixed *s, const lmb_fixed_lamp *la
     }
 }
 
-/* The lamp's cone fall-off by the cosine to the axis: smoothstep, 0 .. FULL - 1. */
+/* The lamp's cone fall-off by the cosine to the axis: smoothstep, 0 .. FULL_WEIGHT - 1. */
 static uint32_t cone_of(const lamp_now *l, int32_t cosine)
 {
     const int32_t over = cosine - l->lamp->cos_outer;
@@ -117,10 +120,10 @@ static uint32_t cone_of(const lamp_now *l, int32_t cosine)
         return 0;
     }
     if (cosine >= l->lamp->cos_inner) {
-        return FULL - 1;
+        return FULL_WEIGHT - 1;
     }
     const uint32_t t = ((uint32_t)over * l->per_cone) >> 15;
-    return (((t * t) >> 15) * (3u * FULL - 2u * t)) >> 15;
+    return (((t * t) >> 15) * (3u * FULL_WEIGHT - 2u * t)) >> 15;
 }
 
 static void direct_at(uint32_t out[3], const lamp_now *l, const fixed_receiver *r, const uint32_t *seen)
@@ -154,8 +157,8 @@ static void direct_at(uint32_t out[3], const lamp_now *l, const fixed_receiver *
     const int32_t up = 2 * (k + l->s->units_log2) - 32 - l->bits;
     for (int c = 0; c < 3; ++c) {
         const uint32_t v = high_of(e, l->colour[c] << 16);
-        out[c] = up <= -32 ? 0 : up <= 0 ? v >> -up : up > 26 || v > (uint32_t)LIGHT_MOST >> up ? LIGHT_MOST : v << up;
-        out[c] = out[c] > LIGHT_MOST ? LIGHT_MOST : out[c];
+        out[c] = up <= -32 ? 0 : up <= 0 ? v >> -up : up > 26 || v > (uint32_t)MAX_LIGHT >> up ? MAX_LIGHT : v << up;
+        out[c] = out[c] > MAX_LIGHT ? MAX_LIGHT : out[c];
     }
 }
 
@@ -165,7 +168,7 @@ static void direct_at(uint32_t out[3], const lamp_now *l, const fixed_receiver *
 static uint32_t reflected(uint32_t v, uint32_t root)
 {
     const uint32_t albedo = root * root;
-    v = v > LIGHT_MOST ? LIGHT_MOST : v;
+    v = v > MAX_LIGHT ? MAX_LIGHT : v;
     return high_of(v << 4, (albedo + (albedo >> 7)) << 12);
 }
 
@@ -189,7 +192,7 @@ LOOP_APART void links_at(uint32_t out[3], const lmb_fixed *s, const uint16_t (*e
     out[2] = high_of(blue, row[1]) << up >> less;
 }
 
-static void set_sent(uint16_t out[4], const uint32_t light[3], const fixed_receiver *r, int32_t down)
+static void set_receiver_sent(uint16_t out[4], const uint32_t light[3], const fixed_receiver *r, int32_t down)
 {
     for (int c = 0; c < 3; ++c) {
         const uint32_t v = reflected(light[c], r->albedo[c]) >> down;
@@ -199,7 +202,7 @@ static void set_sent(uint16_t out[4], const uint32_t light[3], const fixed_recei
 }
 
 /* Computes the total light that each element sends. Returns the number of bits that it is shifted down by. */
-static int32_t solve(uint16_t (*sent)[4], const lmb_fixed_frame *f, const lamp_now *l)
+static int32_t solve_light(uint16_t (*sent)[4], const lmb_fixed_frame *f, const lamp_now *l)
 {
     const lmb_fixed *s = f->scene;
     fixed_receiver r;
@@ -221,7 +224,7 @@ static int32_t solve(uint16_t (*sent)[4], const lmb_fixed_frame *f, const lamp_n
                 more[c] += f->direct[i][c];
             }
             fixed_receiver_at(&r, s, s->vertices + i);
-            set_sent(sent[i], more, &r, down);
+            set_receiver_sent(sent[i], more, &r, down);
         }
     }
     return down;
@@ -267,7 +270,7 @@ lmb_status lmb_fixed_light(lmb_fixed_frame *f)
     }
     f->ready_count = 0;
     set_lamp(&l, f->scene, &f->lamp);
-    const int32_t down = f->bounces > 0 ? solve(sent, f, &l) : 0;
+    const int32_t down = f->bounces > 0 ? solve_light(sent, f, &l) : 0;
     for (uint32_t i = 0; i < f->scene->vertices; ++i) {
         if (f->vertex[i].flags & FIXED_USED) {
             shade(&f->vertex[i], (const uint16_t(*)[4])sent, f->bounces > 0, &l, i, down);

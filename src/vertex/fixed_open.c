@@ -4,13 +4,13 @@
 #include "fixed_part.h"
 #include "number.h"
 
-#define MAGIC         (0x4c4d4600u | LMB_FIXED_VERSION)
+#define FIXED_MAGIC   (0x4c4d4600u | LMB_FIXED_VERSION)
 #define MAGIC_SWAPPED (0x00464d4cu | (uint32_t)LMB_FIXED_VERSION << 24)
 
 enum { MAGIC_AT, WORDS_AT, UNITS_AT, VERTICES_AT, TRIANGLES_AT, ELEMENTS_AT, LINK_WORDS_AT, PLACES_AT, FIRST_AT = 10,
        SPACING_AT = 13, ORIGIN_AT, HULL_AT = 17, ZEROS_AT };
 
-static int is_place(int32_t v) { return v >= -LMB_FIXED_REACH && v <= LMB_FIXED_REACH; }
+static int is_fixed_place(int32_t v) { return v >= -LMB_FIXED_REACH && v <= LMB_FIXED_REACH; }
 
 /* Reads only the numbers of the header. */
 static int take_header(lmb_fixed *s, const uint32_t *word, size_t words)
@@ -33,7 +33,7 @@ static int take_header(lmb_fixed *s, const uint32_t *word, size_t words)
         const uint32_t n = word[PLACES_AT + i];
         s->first[i] = (int32_t)word[FIRST_AT + i];
         s->origin[i] = (int32_t)word[ORIGIN_AT + i];
-        if (n < 1 || n > LMB_FIXED_MAX_PLACES || !is_place(s->first[i]) ||
+        if (n < 1 || n > LMB_FIXED_MAX_PLACES || !is_fixed_place(s->first[i]) ||
             (n > 1 && n - 1 > (uint32_t)(2 * LMB_FIXED_REACH) / word[SPACING_AT])) {
             return 0;
         }
@@ -53,7 +53,7 @@ static int check_receivers(const lmb_fixed *s)
         fixed_receiver r;
         fixed_receiver_at(&r, s, i);
         const int32_t *n = r.normal;
-        if (!is_place(r.at[0]) || !is_place(r.at[1]) || !is_place(r.at[2]) ||
+        if (!is_fixed_place(r.at[0]) || !is_fixed_place(r.at[1]) || !is_fixed_place(r.at[2]) ||
             n[0] * n[0] + n[1] * n[1] + n[2] * n[2] > 129 * 129) {
             return 0;
         }
@@ -111,7 +111,7 @@ lmb_status lmb_fixed_open(lmb_fixed *out, const void *data, size_t bytes)
     if (word[0] == MAGIC_SWAPPED) {
         return LMB_ERR_BUILD;
     }
-    if (word[0] != MAGIC || bytes % 4 != 0 || !take_header(&s, word, bytes / 4)) {
+    if (word[0] != FIXED_MAGIC || bytes % 4 != 0 || !take_header(&s, word, bytes / 4)) {
         return LMB_ERR_FORMAT;
     }
     const uint32_t receivers = s.vertices + s.elements, links = word[LINK_WORDS_AT];

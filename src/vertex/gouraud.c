@@ -14,9 +14,9 @@
 
 #if LMB_TRANSFER
 
-/* Box sides in 1/16 px. TINY triangles take the colour of their first corner. SMALL ones are lit only after a test that
- * they cover a pixel. */
-enum { TINY = 2 * 16, SMALL = 4 * 16 };
+/* Box sides in 1/16 px. Triangles under MAX_TINY_SIXTEENTHS take the colour of their first corner. MAX_SMALL_SIXTEENTHS
+ * ones are lit only after a test that they cover a pixel. */
+enum { MAX_TINY_SIXTEENTHS = 2 * 16, MAX_SMALL_SIXTEENTHS = 4 * 16 };
 
 /* A cached corner of a mesh, indexed by the low bits of the vertex: other triangles use it soon. */
 typedef struct kept_corner {
@@ -29,14 +29,14 @@ typedef struct kept_corner {
 } kept_corner;
 
 /* A part of a triangle: positions and colours of the corners, and the place in the tree of divisions. */
-typedef struct part {
+typedef struct triangle_part {
     lmb_vec3 at[3];
     float b1[3], b2[3];
     uint32_t node, spare;
-} part;
+} triangle_part;
 
 typedef char scratch_fits[sizeof(kept_corner) == sizeof(((lmb_gouraud_scratch *)0)->corner[0]) &&
-                                  sizeof(part) == sizeof(((lmb_gouraud_scratch *)0)->part[0])
+                                  sizeof(triangle_part) == sizeof(((lmb_gouraud_scratch *)0)->part[0])
                               ? 1
                               : -1];
 
@@ -48,7 +48,7 @@ typedef struct drawing {
     gouraud_view of_world, of_mesh; /* of_mesh and place: for positions as stored */
     float place[3][4];              /* to world space */
     kept_corner *kept;
-    part *parts;
+    triangle_part *parts;
     const lmb_instance *instance;
     const lmb_mesh *mesh;
     const lmb_material *material;
@@ -65,7 +65,7 @@ typedef struct triangle {
     int back, is_tiny;
 } triangle;
 
-static void set_instance(drawing *d, const lmb_view *v, const lmb_instance *instance)
+static void set_drawn_instance(drawing *d, const lmb_view *v, const lmb_instance *instance)
 {
     const float *m = instance->to_world.m;
     const lmb_vec3 x = vec3(m[0], m[1], m[2]), y = vec3(m[4], m[5], m[6]), z = vec3(m[8], m[9], m[10]);
@@ -103,7 +103,7 @@ static lmb_vec3 stored_position(const lmb_mesh *m, uint32_t vertex)
     return vec3((float)at[0], (float)at[1], (float)at[2]);
 }
 
-static void keep(kept_corner *out, const drawing *d, uint32_t vertex)
+static void keep_corner(kept_corner *out, const drawing *d, uint32_t vertex)
 {
     gouraud_point p;
     out->vertex = vertex;
@@ -139,7 +139,7 @@ static kept_corner *new_corner(const drawing *d, uint32_t vertex, const kept_cor
         return NULL;
     }
     own = own == other || own == another ? spare : own;
-    keep(own, d, vertex);
+    keep_corner(own, d, vertex);
     return own;
 }
 
@@ -155,12 +155,12 @@ typedef struct side {
     int32_t at, per_x, per_y;
 } side;
 
-enum { SLACK = 8 }; /* rounding of edges along rows is less */
+enum { ROW_SLACK = 8 }; /* rounding of edges along rows is less */
 
-static side side_of(const kept_corner *from, const kept_corner *to, int32_t x, int32_t y, int32_t turn)
+static side side_of_edge(const kept_corner *from, const kept_corner *to, int32_t x, int32_t y, int32_t turn)
 {
     const int32_t dx = turn * (to->px - from->px), dy = turn * (to->py - from->py);
-    const side s = {dx * (y - from->py) - dy * (x - from->px) + SLACK, -16 * dy, 16 * dx};
+    const side s = {dx * (y - from->py) - dy * (x - from->px) + ROW_SLACK, -16 * dy, 16 * dx};
     return s;
 }
 
@@ -168,8 +168,8 @@ static side side_of(const kept_corner *from, const kept_corner *to, int32_t x, i
 static int covers(const triangle *t, int32_t turn, int32_t x, int32_t y, int32_t past_x, int32_t past_y)
 {
     const kept_corner *a = t->corner[0], *b = t->corner[1], *c = t->corner[2];
-    side s = side_of(a, b, 16 * x + 8, 16 * y + 8, turn), u = side_of(b, c, 16 * x + 8, 16 * y + 8, turn),
-         v = side_of(c, a, 16 * x + 8, 16 * y + 8, turn);
+    side s = side_of_edge(a, b, 16 * x + 8, 16 * y + 8, turn), u = side_of_edge(b, c, 16 * x + 8, 16 * y + 8, turn),
+         v = side_of_edge(c, a, 16 * x + 8, 16 * y + 8, turn);
     for (; y < past_y; ++y) {
         int32_t at_s = s.at, at_u = u.at, at_v = v.at;
         for (int32_t i = x; i < past_x; ++i) {
@@ -199,8 +199,9 @@ static int may_cover(triangle *t, const drawing *d, const kept_corner *a, const 
         y0 >= 16 * d->target.height) {
         return 0;
     }
-    t->is_tiny = x1 - x0 < TINY && y1 - y0 < TINY;
-    return x1 - x0 >= SMALL || y1 - y0 >= SMALL || covers(t, area < 0 ? -1 : 1, first_x, first_y, past_x, past_y);
+    t->is_tiny = x1 - x0 < MAX_TINY_SIXTEENTHS && y1 - y0 < MAX_TINY_SIXTEENTHS;
+    return x1 - x0 >= MAX_SMALL_SIXTEENTHS || y1 - y0 >= MAX_SMALL_SIXTEENTHS ||
+           covers(t, area < 0 ? -1 : 1, first_x, first_y, past_x, past_y);
 }
 
 /* 1 if triangle n of the mesh may be visible. */
@@ -277,7 +278,7 @@ static lmb_vec3 normal_of(const drawing *d, const triangle *t, int i)
     return mul3(n, t->back != d->is_mirrored ? -1.0f : 1.0f);
 }
 
-static void albedo_at(float out[3], const drawing *d, const triangle *t, float b1, float b2)
+static void albedo_at_corner(float out[3], const drawing *d, const triangle *t, float b1, float b2)
 {
     float colour[3][4];
     out[0] = d->albedo[0], out[1] = d->albedo[1], out[2] = d->albedo[2];
@@ -340,8 +341,8 @@ static void light_at(float e[3], const drawing *d, const triangle *t, lmb_vec3 a
 }
 
 /* `corner`: receivers, or blends if light is stored by direction. */
-static void draw_leaf(const drawing *d, const triangle *t, const part *leaf, const uint32_t *corner, int is_directed,
-                      lmb_vec3 face)
+static void draw_leaf(const drawing *d, const triangle *t, const triangle_part *leaf, const uint32_t *corner,
+                      int is_directed, lmb_vec3 face)
 {
     gouraud_point p[3];
     uint32_t any = 0, all = GOURAUD_OUTSIDE;
@@ -361,7 +362,7 @@ static void draw_leaf(const drawing *d, const triangle *t, const part *leaf, con
         } else {
             light_at(e, d, t, leaf->at[i], corner[i], face);
         }
-        albedo_at(albedo, d, t, leaf->b1[i], leaf->b2[i]);
+        albedo_at_corner(albedo, d, t, leaf->b1[i], leaf->b2[i]);
         lmb_gouraud_colour(p[i].colour, e, albedo, d->gain);
     }
     if (any == 0) {
@@ -375,7 +376,7 @@ static void draw_leaf(const drawing *d, const triangle *t, const part *leaf, con
 
 /* Moves corner k to the split point of the edge. It is exactly the same point for both triangles that share the
  * edge. */
-static void enter_half(part *p, const transfer_halving *h, int second)
+static void enter_triangle_half(triangle_part *p, const transfer_halving *h, int second)
 {
     const int from = h->from, to = halving_to(from), k = second ? from : to;
     const float rest = 1.0f - h->part;
@@ -395,7 +396,7 @@ static void draw_divided(const drawing *d, const triangle *t, uint32_t root)
     const lmb_vec3 face = face_of(d, t);
     uint32_t left = file->count[LMB_TRANSFER_DIVISIONS];
     int count = 1;
-    part *first = &d->parts[0];
+    triangle_part *first = &d->parts[0];
     memset(first, 0, sizeof *first);
     for (int i = 0; i < 3; ++i) {
         first->at[i] = world_of(d, t->corner[i]->vertex);
@@ -403,12 +404,12 @@ static void draw_divided(const drawing *d, const triangle *t, uint32_t root)
     first->b1[1] = first->b2[2] = 1.0f;
     first->node = root;
     for (; count > 0 && left > 0; --left) {
-        part here = d->parts[--count];
+        triangle_part here = d->parts[--count];
         while ((node[here.node] & LMB_TRANSFER_LEAF) == 0 && count <= LMB_TRANSFER_MAX_HALVINGS) {
             const transfer_halving h = halving_of(file, node[here.node]);
             d->parts[count] = here;
-            enter_half(&d->parts[count++], &h, 1);
-            enter_half(&here, &h, 0);
+            enter_triangle_half(&d->parts[count++], &h, 1);
+            enter_triangle_half(&here, &h, 0);
         }
         const uint32_t place = node[here.node] & ~LMB_TRANSFER_LEAF;
         if ((node[here.node] & LMB_TRANSFER_LEAF) != 0) {
@@ -438,7 +439,7 @@ static void draw_triangle(const drawing *d, const triangle *t)
     }
 }
 
-static void draw_range(drawing *d, const lmb_view *v, uint32_t first_id, uint32_t past)
+static void draw_gouraud_range(drawing *d, const lmb_view *v, uint32_t first_id, uint32_t past)
 {
     const uint32_t all = lmb_scene_triangles(d->scene);
     past = past < all + 1 ? past : all + 1;
@@ -447,7 +448,7 @@ static void draw_range(drawing *d, const lmb_view *v, uint32_t first_id, uint32_
         const uint32_t own = instance->first_id, own_past = own + d->scene->meshes[instance->mesh].triangle_count;
         const uint32_t from = first_id > own ? first_id : own, to = past < own_past ? past : own_past;
         if (from < to) {
-            set_instance(d, v, instance);
+            set_drawn_instance(d, v, instance);
         }
         for (uint32_t id = from; id < to; ++id) {
             triangle t;
@@ -492,7 +493,7 @@ lmb_status lmb_gouraud_map(lmb_shadow_map *map, lmb_gouraud_scratch *scratch, co
         d.target.step = map->size;
         lmb_gouraud_size(&d.target, map->size, map->size);
         if ((map->drawn >> f & 1u) != 0) {
-            draw_range(&d, &map->view[f], 1, UINT32_MAX);
+            draw_gouraud_range(&d, &map->view[f], 1, UINT32_MAX);
         }
     }
     return LMB_OK;
@@ -548,7 +549,7 @@ lmb_status lmb_gouraud_draw(const lmb_gouraud *g, uint32_t first_id, uint32_t co
     d.g = g;
     d.scene = g->scene;
     d.kept = (kept_corner *)(void *)g->scratch->corner;
-    d.parts = (part *)(void *)g->scratch->part;
+    d.parts = (triangle_part *)(void *)g->scratch->part;
     d.gain = lmb_exp2(g->exposure_ev) * 0.31830989f;
     d.target.pixel = (uint16_t *)g->out.data;
     d.target.pixel_step = g->out.stride_bytes / (int32_t)sizeof(uint16_t);
@@ -556,7 +557,7 @@ lmb_status lmb_gouraud_draw(const lmb_gouraud *g, uint32_t first_id, uint32_t co
     d.target.step = g->out.width;
     lmb_gouraud_size(&d.target, g->out.width, g->out.height);
     lmb_gouraud_view_of(&d.of_world, &g->view, &unit);
-    draw_range(&d, &g->view, first_id, count > UINT32_MAX - first_id ? UINT32_MAX : first_id + count);
+    draw_gouraud_range(&d, &g->view, first_id, count > UINT32_MAX - first_id ? UINT32_MAX : first_id + count);
     return LMB_OK;
 }
 

@@ -12,11 +12,11 @@
 
 #if LMB_TRANSFER
 
-enum { CORNERS = 8 }; /* of a triangle cut by five planes */
+enum { MAX_CLIPPED_CORNERS = 8 }; /* of a triangle cut by five planes */
 
 /* --- before the division ------------------------------------------------------------------------------------------ */
 
-static void set_row(float row[4], lmb_vec3 axis, const lmb_mat4 *t, lmb_vec3 eye)
+static void set_gouraud_row(float row[4], lmb_vec3 axis, const lmb_mat4 *t, lmb_vec3 eye)
 {
     const float *m = t->m;
     for (int c = 0; c < 3; ++c) {
@@ -27,9 +27,9 @@ static void set_row(float row[4], lmb_vec3 axis, const lmb_mat4 *t, lmb_vec3 eye
 
 void lmb_gouraud_view_of(gouraud_view *out, const lmb_view *v, const lmb_mat4 *to_world)
 {
-    set_row(out->row[0], mul3(v->right, 1.0f / v->half_width), to_world, v->eye);
-    set_row(out->row[1], mul3(v->up, 1.0f / v->half_height), to_world, v->eye);
-    set_row(out->row[2], mul3(v->back, -1.0f), to_world, v->eye);
+    set_gouraud_row(out->row[0], mul3(v->right, 1.0f / v->half_width), to_world, v->eye);
+    set_gouraud_row(out->row[1], mul3(v->up, 1.0f / v->half_height), to_world, v->eye);
+    set_gouraud_row(out->row[2], mul3(v->back, -1.0f), to_world, v->eye);
     out->near_m = v->near_m;
     out->far_m = v->far_m;
     out->is_far = v->kind == LMB_ORTHOGRAPHIC;
@@ -67,7 +67,7 @@ void lmb_gouraud_size(gouraud_target *t, int32_t width, int32_t height)
 }
 
 /* Distance of a point inside a plane. */
-static float inside(const gouraud_point *p, int plane)
+static float height_inside(const gouraud_point *p, int plane)
 {
     const float guard = (float)GOURAUD_GUARD * p->w;
     switch (plane) {
@@ -85,7 +85,7 @@ static float inside(const gouraud_point *p, int plane)
 }
 
 /* Intersection of the segment from a, inside, to b, outside, with the plane. */
-static gouraud_point cut(const gouraud_point *a, const gouraud_point *b, float in, float out)
+static gouraud_point cut_gouraud_edge(const gouraud_point *a, const gouraud_point *b, float in, float out)
 {
     const float t = in / (in - out);
     gouraud_point p;
@@ -100,17 +100,17 @@ static gouraud_point cut(const gouraud_point *a, const gouraud_point *b, float i
 }
 
 /* Always cuts from the inside to the outside, so that neighbours cut a shared edge at one place. */
-static int cut_plane(gouraud_point *out, const gouraud_point *p, int count, int plane)
+static int cut_by_gouraud_plane(gouraud_point *out, const gouraud_point *p, int count, int plane)
 {
     int n = 0;
     for (int i = 0; i < count; ++i) {
         const gouraud_point *a = &p[i], *b = &p[i + 1 < count ? i + 1 : 0];
-        const float at = inside(a, plane), bt = inside(b, plane);
+        const float at = height_inside(a, plane), bt = height_inside(b, plane);
         if (at >= 0.0f) {
             out[n++] = *a;
         }
         if ((at >= 0.0f) != (bt >= 0.0f)) {
-            out[n++] = at >= 0.0f ? cut(a, b, at, bt) : cut(b, a, bt, at);
+            out[n++] = at >= 0.0f ? cut_gouraud_edge(a, b, at, bt) : cut_gouraud_edge(b, a, bt, at);
         }
     }
     return n;
@@ -136,13 +136,13 @@ static gouraud_corner place_cut(const gouraud_target *t, gouraud_point p)
 
 void lmb_gouraud_clip(const gouraud_target *t, const gouraud_point p[3], uint32_t any, uint32_t id, int how)
 {
-    gouraud_point a[CORNERS + 1] = {p[0], p[1], p[2]}, b[CORNERS + 1];
+    gouraud_point a[MAX_CLIPPED_CORNERS + 1] = {p[0], p[1], p[2]}, b[MAX_CLIPPED_CORNERS + 1];
     int count = 3;
     for (int plane = 0; plane < 5 && count >= 3; ++plane) {
         if ((any >> plane & 1u) == 0) {
             continue;
         }
-        count = cut_plane(b, a, count, plane);
+        count = cut_by_gouraud_plane(b, a, count, plane);
         for (int i = 0; i < count; ++i) {
             a[i] = b[i];
         }
@@ -163,13 +163,13 @@ void lmb_gouraud_clip(const gouraud_target *t, const gouraud_point p[3], uint32_
 /* --- rows --------------------------------------------------------------------------------------------------------- */
 
 /* From an upper end down to a lower one; x in 1/16 px, `slope` in 2^-14. */
-typedef struct edge {
+typedef struct gouraud_edge {
     int32_t x, y, past, slope;
-} edge;
+} gouraud_edge;
 
-static edge edge_of(const gouraud_corner *from, const gouraud_corner *to)
+static gouraud_edge gouraud_edge_of(const gouraud_corner *from, const gouraud_corner *to)
 {
-    edge e;
+    gouraud_edge e;
     const int32_t down = to->y - from->y;
     e.x = from->x;
     e.y = from->y;
@@ -179,27 +179,31 @@ static edge edge_of(const gouraud_corner *from, const gouraud_corner *to)
 }
 
 /* x in 2^-14 px, for a row with the centre between the edge's ends. */
-static int32_t edge_at(const edge *e, int32_t middle) { return e->x * 1024 + ((e->slope * (middle - e->y)) >> 4); }
+static int32_t gouraud_edge_at(const gouraud_edge *e, int32_t middle)
+{
+    return e->x * 1024 + ((e->slope * (middle - e->y)) >> 4);
+}
 
 /* Shift across of an edge that moves outwards by a sixteenth of a pixel, down or across. */
-static int32_t edge_growth(const edge *e) { return ((e->slope < 0 ? -e->slope : e->slope) >> 4) + 1024; }
+static int32_t edge_growth(const gouraud_edge *e) { return ((e->slope < 0 ? -e->slope : e->slope) >> 4) + 1024; }
 
 /* The first pixel with a centre not left of x. */
-static int32_t first_pixel(int32_t x) { return (x + 8191) >> 14; }
+static int32_t first_gouraud_pixel(int32_t x) { return (x + 8191) >> 14; }
 
 /* A linear value on the triangle, in 0 .. max. Integers if it is gentle. */
-typedef struct plane {
+typedef struct gouraud_plane {
     float at, per_x, per_y, max;   /* at the first corner; per px */
     int32_t first, step_x, step_y; /* at the centre of the target's first pixel; step to the next pixel, and to the next
                                       row */
     int is_gentle;
-} plane;
+} gouraud_plane;
 
 /* Per px: up to this, values fit 31 bits at any distance between a pixel and a corner. */
-#define GENTLE 262144.0f
+#define MAX_GENTLE_STEP 262144.0f
 
 /* All but the integers. */
-static void set_plane(plane *out, const gouraud_corner c[3], float f0, float f1, float f2, float per_area, float max)
+static void set_plane(gouraud_plane *out, const gouraud_corner c[3], float f0, float f1, float f2, float per_area,
+                      float max)
 {
     const float a = f1 - f0, b = f2 - f0;
     out->at = f0;
@@ -209,11 +213,11 @@ static void set_plane(plane *out, const gouraud_corner c[3], float f0, float f1,
 }
 
 /* Adds the integers if they suffice. */
-static void set_whole_plane(plane *out, const gouraud_corner c[3], float f0, float f1, float f2, float per_area,
+static void set_whole_plane(gouraud_plane *out, const gouraud_corner c[3], float f0, float f1, float f2, float per_area,
                             float max)
 {
     set_plane(out, c, f0, f1, f2, per_area, max);
-    out->is_gentle = absf(out->per_x) < GENTLE && absf(out->per_y) < GENTLE;
+    out->is_gentle = absf(out->per_x) < MAX_GENTLE_STEP && absf(out->per_y) < MAX_GENTLE_STEP;
     if (out->is_gentle) {
         out->step_x = (int32_t)out->per_x;
         out->step_y = (int32_t)out->per_y;
@@ -222,30 +226,30 @@ static void set_whole_plane(plane *out, const gouraud_corner c[3], float f0, flo
 }
 
 /* x and y: px from the first corner. */
-static float plane_at(const plane *p, float x, float y)
+static float plane_at(const gouraud_plane *p, float x, float y)
 {
     return clampf(p->at + p->per_y * y + p->per_x * x, 0.0f, p->max);
 }
 
 /* A value along a row: at the first pixel, and per pixel, with both ends in the plane's range. */
-typedef struct ramp {
+typedef struct gouraud_ramp {
     int32_t at, step;
-} ramp;
+} gouraud_ramp;
 
-static ramp ramp_between(const plane *p, const gouraud_corner *c, int32_t x, int32_t y, int32_t count)
+static gouraud_ramp ramp_between(const gouraud_plane *p, const gouraud_corner *c, int32_t x, int32_t y, int32_t count)
 {
     const float dx = (float)(16 * x + 8 - c->x) * 0.0625f, dy = (float)(16 * y + 8 - c->y) * 0.0625f;
-    ramp r;
+    gouraud_ramp r;
     r.at = (int32_t)plane_at(p, dx, dy);
     r.step = count > 1 ? ((int32_t)plane_at(p, dx + (float)(count - 1), dy) - r.at) / (count - 1) : 0;
     return r;
 }
 
 /* Pixel centres beside an edge may lie slightly outside the triangle. */
-static inline ramp ramp_of(const plane *p, const gouraud_corner *c, int32_t x, int32_t y, int32_t count)
+static inline gouraud_ramp ramp_of(const gouraud_plane *p, const gouraud_corner *c, int32_t x, int32_t y, int32_t count)
 {
     const uint32_t max = (uint32_t)(int32_t)p->max;
-    ramp r;
+    gouraud_ramp r;
     r.at = p->first + p->step_y * y + p->step_x * x;
     r.step = p->step_x;
     if (!p->is_gentle || (uint32_t)r.at > max || (uint32_t)(r.at + r.step * (count - 1)) > max) {
@@ -256,22 +260,23 @@ static inline ramp ramp_of(const plane *p, const gouraud_corner *c, int32_t x, i
 
 /* Colours: 5, 6 and 5 bits, with 11 fraction bits. Red lies above blue in one word, because sums of blue stay within 16
  * bits. */
-enum { FRACTION = 11 };
+enum { COLOUR_FRACTION_BITS = 11 };
 
 static uint32_t red_and_blue(int32_t red, int32_t blue) { return ((uint32_t)red << 16) + (uint32_t)blue; }
 
-static uint16_t pixel_of(uint32_t red_blue, uint32_t green)
+static uint16_t pixel_of_channels(uint32_t red_blue, uint32_t green)
 {
-    return (uint16_t)((red_blue >> 16 & 0xf800u) | (green & 0x1f800u) >> (FRACTION - 5) |
-                      (red_blue & 0xffffu) >> FRACTION);
+    return (uint16_t)((red_blue >> 16 & 0xf800u) | (green & 0x1f800u) >> (COLOUR_FRACTION_BITS - 5) |
+                      (red_blue & 0xffffu) >> COLOUR_FRACTION_BITS);
 }
 
 /* Bayer's 4 x 4 matrix (1973) in sixteenths, less half of one: for red and for blue. */
-#define BOTH(a) ((uint32_t)(a) << 16 | (uint32_t)(a))
-static const uint32_t dither[4][4] = {{BOTH(64), BOTH(1088), BOTH(320), BOTH(1344)},
-                                      {BOTH(1600), BOTH(576), BOTH(1856), BOTH(832)},
-                                      {BOTH(448), BOTH(1472), BOTH(192), BOTH(1216)},
-                                      {BOTH(1984), BOTH(960), BOTH(1728), BOTH(704)}};
+#define IN_BOTH_HALVES(a) ((uint32_t)(a) << 16 | (uint32_t)(a))
+static const uint32_t dither_table[4][4] = {
+    {IN_BOTH_HALVES(64), IN_BOTH_HALVES(1088), IN_BOTH_HALVES(320), IN_BOTH_HALVES(1344)},
+    {IN_BOTH_HALVES(1600), IN_BOTH_HALVES(576), IN_BOTH_HALVES(1856), IN_BOTH_HALVES(832)},
+    {IN_BOTH_HALVES(448), IN_BOTH_HALVES(1472), IN_BOTH_HALVES(192), IN_BOTH_HALVES(1216)},
+    {IN_BOTH_HALVES(1984), IN_BOTH_HALVES(960), IN_BOTH_HALVES(1728), IN_BOTH_HALVES(704)}};
 
 /* A 16-bit depth: the four lowest bits of the exponent and twelve of the fraction, so that relative precision is the
  * same near and far. */
@@ -289,7 +294,7 @@ typedef struct depth_ramp {
     float at, step;
 } depth_ramp;
 
-static inline depth_ramp depths_of(const plane *p, const gouraud_corner *c, int32_t x, int32_t y, int32_t count)
+static inline depth_ramp depths_of(const gouraud_plane *p, const gouraud_corner *c, int32_t x, int32_t y, int32_t count)
 {
     const float dx = (float)(16 * x + 8 - c->x) * 0.0625f, dy = (float)(16 * y + 8 - c->y) * 0.0625f;
     const float more = (float)(count - 1), at = p->at + p->per_y * dy + p->per_x * dx, end = at + p->per_x * more;
@@ -304,7 +309,7 @@ static inline depth_ramp depths_of(const plane *p, const gouraud_corner *c, int3
 typedef struct filler {
     const gouraud_target *t;
     const gouraud_corner *c;
-    plane depth, colour[3];
+    gouraud_plane depth, colour[3];
     uint32_t id;
     int how;
     uint32_t red_blue, green; /* the colour for GOURAUD_FLAT */
@@ -315,10 +320,10 @@ static void fill_row(const filler *f, int32_t x, int32_t y, int32_t count)
 {
     const gouraud_target *t = f->t;
     const depth_ramp d = depths_of(&f->depth, f->c, x, y, count);
-    const ramp r = ramp_of(&f->colour[0], f->c, x, y, count), g = ramp_of(&f->colour[1], f->c, x, y, count),
-               b = ramp_of(&f->colour[2], f->c, x, y, count);
+    const gouraud_ramp r = ramp_of(&f->colour[0], f->c, x, y, count), g = ramp_of(&f->colour[1], f->c, x, y, count),
+                       b = ramp_of(&f->colour[2], f->c, x, y, count);
     uint16_t *depth = t->depth16 + y * t->step + x, *pixel = t->pixel + y * t->pixel_step + x, *past = pixel + count;
-    const uint32_t *threshold = dither[y & 3], red_blue_step = red_and_blue(r.step, b.step);
+    const uint32_t *threshold = dither_table[y & 3], red_blue_step = red_and_blue(r.step, b.step);
     uint32_t red_blue = red_and_blue(r.at, b.at);
     int32_t green = g.at;
     float at = d.at;
@@ -327,7 +332,7 @@ static void fill_row(const filler *f, int32_t x, int32_t y, int32_t count)
         if (own > *depth) {
             const uint32_t low = threshold[x & 3];
             *depth = own;
-            *pixel = pixel_of(red_blue + low, (uint32_t)green + (low & 0xffffu));
+            *pixel = pixel_of_channels(red_blue + low, (uint32_t)green + (low & 0xffffu));
         }
         at += d.step, red_blue += red_blue_step, green += g.step;
     }
@@ -343,9 +348,9 @@ static void fill_row_flat(const filler *f, int32_t x, int32_t y, int32_t count)
     for (; pixel != past; ++pixel, ++depth, ++x, at += d.step) {
         const uint16_t own = depth_code(at);
         if (own > *depth) {
-            const uint32_t low = dither[y & 3][x & 3];
+            const uint32_t low = dither_table[y & 3][x & 3];
             *depth = own;
-            *pixel = pixel_of(f->red_blue + low, f->green + (low & 0xffffu));
+            *pixel = pixel_of_channels(f->red_blue + low, f->green + (low & 0xffffu));
         }
     }
 }
@@ -369,18 +374,19 @@ static void fill_row_ids(const filler *f, int32_t x, int32_t y, int32_t count)
 }
 
 /* Fills the rows with their centres on both edges. */
-static void fill_between(const filler *f, const edge *a, const edge *b, int32_t top, int32_t past)
+static void fill_between(const filler *f, const gouraud_edge *a, const gouraud_edge *b, int32_t top, int32_t past)
 {
     const gouraud_target *t = f->t;
     const int32_t first = maxi((top + 7) >> 4, 0), end = mini((past + 7) >> 4, t->height);
     for (int32_t y = first; y < end; ++y) {
-        const int32_t u = edge_at(a, 16 * y + 8), v = edge_at(b, 16 * y + 8);
+        const int32_t u = gouraud_edge_at(a, 16 * y + 8), v = gouraud_edge_at(b, 16 * y + 8);
         int32_t left = mini(u, v), right = maxi(u, v);
         if (f->how == GOURAUD_GROWN) {
             left -= edge_growth(u < v ? a : b);
             right += edge_growth(u < v ? b : a);
         }
-        const int32_t x = maxi(first_pixel(left), f->first), count = mini(first_pixel(right), f->past) - x;
+        const int32_t x = maxi(first_gouraud_pixel(left), f->first),
+                      count = mini(first_gouraud_pixel(right), f->past) - x;
         if (count <= 0) {
             continue;
         }
@@ -394,7 +400,7 @@ static void fill_between(const filler *f, const edge *a, const edge *b, int32_t 
     }
 }
 
-static void set_planes(filler *f, float per_area)
+static void set_colour_planes(filler *f, float per_area)
 {
     const gouraud_corner *c = f->c;
     set_plane(&f->depth, c, c[0].d, c[1].d, c[2].d, per_area, 1.0f);
@@ -441,8 +447,9 @@ void lmb_gouraud_fill(const gouraud_target *t, const gouraud_corner c[3], uint32
     f.how = how;
     f.first = maxi((mini(c[0].x, mini(c[1].x, c[2].x)) + 6) >> 4, 0);
     f.past = mini((maxi(c[0].x, maxi(c[1].x, c[2].x)) + 8) >> 4, t->width);
-    set_planes(&f, 16.0f / (float)area);
-    const edge whole = edge_of(top, bottom), upper = edge_of(top, middle), lower = edge_of(middle, bottom);
+    set_colour_planes(&f, 16.0f / (float)area);
+    const gouraud_edge whole = gouraud_edge_of(top, bottom), upper = gouraud_edge_of(top, middle),
+                       lower = gouraud_edge_of(middle, bottom);
     fill_between(&f, &whole, &upper, top->y, middle->y);
     fill_between(&f, &whole, &lower, middle->y, bottom->y);
 }

@@ -47,7 +47,7 @@ static int32_t face_towards(const lmb_shadow_map *map, const lmb_light *light, l
 /* Tests the surface at the centre of the texel against the receiver's plane there, like the last resort of
  * direct/shadow.c. It is off by up to a texel, which does not show if corners are closer together than texels. 1
  * outside the map. */
-static int is_lit(const lmb_shadow_map *map, const lmb_light *light, lmb_vec3 at, lmb_vec3 normal)
+static int is_corner_lit(const lmb_shadow_map *map, const lmb_light *light, lmb_vec3 at, lmb_vec3 normal)
 {
     const int32_t face = face_towards(map, light, at);
     const lmb_view *v = &map->view[face];
@@ -89,7 +89,8 @@ void lmb_gouraud_direct(float inout[3], const lmb_gouraud *g, lmb_vec3 at, lmb_v
     for (uint32_t i = 0; g->maps != NULL && i < g->scene->light_count; ++i) {
         const lmb_light *light = &g->scene->lights[i];
         const float e = arriving(light, at, normal);
-        if (e > 0.0f && (is_exact ? is_lit_exactly(g, i, at, normal, id) : is_lit(&g->maps[i], light, at, normal))) {
+        if (e > 0.0f &&
+            (is_exact ? is_lit_exactly(g, i, at, normal, id) : is_corner_lit(&g->maps[i], light, at, normal))) {
             for (int c = 0; c < 3; ++c) {
                 inout[c] += light->intensity[c] * e;
             }
@@ -128,7 +129,7 @@ void lmb_gouraud_albedo(float out[3], const lmb_scene *scene, const lmb_material
 }
 
 /* The curve of frame/encode.inl without rounding, because codes are interpolated. */
-static float code_of(float linear)
+static float code_of_light(float linear)
 {
     const float x = clampf(linear, 0.0f, 1.0f), root = sqrtf(x);
     float curve = -78.940811f * root + 214.911713f;
@@ -141,7 +142,7 @@ static float code_of(float linear)
 void lmb_gouraud_colour(float out[3], const float e[3], const float albedo[3], float gain)
 {
     for (int c = 0; c < 3; ++c) {
-        out[c] = code_of(e[c] * albedo[c] * gain);
+        out[c] = code_of_light(e[c] * albedo[c] * gain);
     }
 }
 

@@ -98,6 +98,7 @@ const lmb_kernels *lmb_kernels_at(int32_t i)
     return i == 0 ? &lmb_kernels_audit : NULL;
 }
 
+const char *lmb_kernels_built(int32_t i) { return i == 0 ? lmb_kernels_audit.name : NULL; }
 const lmb_kernels *lmb_kernels_pick(void) { return lmb_kernels_at(0); }
 const lmb_kernels *lmb_kernels_named(const char *name)
 {

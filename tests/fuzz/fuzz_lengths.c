@@ -92,6 +92,7 @@ LENGTH(lmb_render_vertices, normals, a[3].memory ? 12 * (size_t)S(3, lmb_draw_ve
 LENGTH(lmb_draw_light, normals, a[2].memory ? 12 * (size_t)S(2, lmb_draw_vertices)->count : 0)
 #endif
 static size_t any_int32_t(const argument *a) { return (void)a, sizeof(int32_t); }
+static size_t any_float(const argument *a) { return (void)a, sizeof(float); }
 static size_t any_place(const argument *a) { return (void)a, 3 * sizeof(int32_t); }
 static size_t any_double(const argument *a) { return (void)a, sizeof(double); }
 
@@ -149,6 +150,7 @@ static const struct {
 #endif
     {"lmb_two_maps", "memory", two_maps},
     {"lmb_shadow_map_init", "memory", shadow_map},
+    {"lmb_triangle_shape", "area", any_float},
     {"lmb_fixed_look_at", "eye", any_place},
     {"lmb_fixed_look_at", "target", any_place},
     {"lmb_photo_view", "x0", any_int32_t},

@@ -100,7 +100,7 @@ static kind kinds[] = {
     ONE(lmb_world_pictures), ONE(lmb_world_query), MANY(lmb_light, POOL_LIGHTS), MANY(lmb_shadow_map, POOL_MAPS),
     MANY(lmb_texel, POOL_TEXELS), MANY(lmb_vec3, POOL_PLACES), MANY(lmb_voxel_part, POOL_PARTS), MANY(lmb_cluster, POOL_CLUSTERS),
     MANY(lmb_bins, POOL_BINS), ONE(lmb_draw_target), ONE(lmb_draw_state), ONE(lmb_draw_vertices), ONE(lmb_draw_indices),
-    ONE(lmb_draw_lighting), ONE(lmb_draw_lit), ONE(lmb_blit_image), ONE(lmb_blit_how), ONE(lmb_mat4),
+    ONE(lmb_draw_lighting), ONE(lmb_draw_lit), ONE(lmb_blit_image), ONE(lmb_blit_how), ONE(lmb_mat4), ONE(lmb_triangle), ONE(lmb_vertex),
 };
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
@@ -121,6 +121,12 @@ void *pool_slot(const char *type, int i)
 {
     if (strcmp(type, "lmb_scene") == 0) {
         return (void *)(uintptr_t)pool_scene(i);
+    }
+    if (strcmp(type, "lmb_mesh") == 0) { /* of a checked scene, as the headers demand; so are textures */
+        return (void *)(uintptr_t)pool_scene(i)->meshes;
+    }
+    if (strcmp(type, "lmb_texture") == 0) {
+        return (void *)(uintptr_t)pool_scene(i)->textures;
     }
     kind *k = kind_of(type);
     i %= POOL_SLOTS;

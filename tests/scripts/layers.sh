@@ -1,8 +1,9 @@
 # layers.sh: checks includes and calls against layers.txt, which lists every folder of src/ and tools/ in order. CC B NM
 # in the environment; needs the built library and tool.
 #
-#     layers.sh          checks folders by #include and by nm; cycles between files in both; first lines; file names;
-#                        the plans in the README files; the rows of mutants.txt; and that it finds made-up faults
+#     layers.sh          checks folders by #include and by nm; cycles between files in both; private headers in tools;
+#                        first lines; file names; names that several files define; the plans in the README files; the
+#                        rows of mutants.txt; and that it finds made-up faults
 #     layers.sh write    writes the plans into src/README.md and tools/README.md, and the layers into the first lines
 . tests/scripts/checks.sh
 . tests/scripts/mutants.sh
@@ -118,6 +119,12 @@ upward() {
         }'
 }
 
+# private: prints edges from tools/ to src/. Tools use only public headers, as your programs do. Except: lambent-bench,
+# which measures the SIMD verbs and counts the operations of kernels.
+private() {
+    awk '$1 ~ /^tools\// && $2 ~ /^src\// && $1 !~ /^tools\/bench\/bench_(rates|operations)/ { print $1 " -> " $2 }'
+}
+
 # none TEXT LINES: fails once for each line.
 none() {
     if [ -z "$2" ]; then
@@ -145,6 +152,7 @@ check "nm finds no calls" test -s "$dir/calls"
 
 none "include" "$(upward <"$dir/includes")"
 none "call" "$(upward <"$dir/calls")"
+none "private header in a tool" "$(private <"$dir/includes")"
 none "circle of includes" "$(grep -E '^(src|tools)' "$dir/includes" | in_circles)"
 none "circle of calls" "$(in_circles <"$dir/calls")"
 echo "$(sort -u "$dir/includes" | wc -l) includes, $(wc -l <"$dir/calls") calls from file to file"
@@ -173,6 +181,13 @@ same_names() {
 none "two files have one name" "$(same_names src/*/*)"
 none "two files have one name" "$(same_names tools/*/*)"
 none "two sources have one name" "$(same_names src/*/*.c tools/*/*.c platform/host/*.c)"
+# ambiguous FILE...: prints names that several sources of src define, with these. A name is then clear in a stack trace,
+# and the two-file version keeps it. Six older names are left.
+ambiguous() {
+    awk -v PART=names -f platform/amalgam/amalgam.awk "$@" |
+        grep -vE '^(area_of|grid_of|is_even|light_tile|share_of|spread):'
+}
+none "several files define" "$(ambiguous src/*/*.c)"
 none "mutants.txt" "$(mutant_faults tests/scripts/mutants.txt .)"
 
 for root in src tools; do
@@ -197,6 +212,11 @@ printf '/* four.inl: a kernel. Floor 1. */\n' >"$made/src/base/four.inl"
 check "a first line without its layer is not found" test -n "$(without_layer "$made/src/base/four.inl")"
 check "a second shade.c is not found" test "$(same_names src/*/* src/isa/shade.c)" = \
     "src/frame/shade.c and src/isa/shade.c"
+printf '%s\n' 'static int next_cell(int i)' '{' '    return i;' '}' 'enum { MAX_CELLS = 4 };' >"$made/src/base/five.c"
+printf '%s\n' 'typedef struct next_cell {' '    int i;' '} next_cell;' 'enum {' '    A_CELL, /* a * b */' \
+    '    MAX_CELLS' '};' >"$made/src/raster/six.c"
+check "made-up ambiguous names are not found" test "$(ambiguous "$made/src/base/five.c" "$made/src/raster/six.c" |
+    sed 's/:.*//' | sort | tr '\n' ';')" = "MAX_CELLS;next_cell;"
 mkdir -p "$made/tests/unit" "$made/tools/cli"
 : >"$made/tests/unit/test_light.c"
 printf '%s\n' '# A table.' 'src/base tests:light' '    tests:gone' 'src/gone - why' 'tools/cli -' >"$made/mutants.txt"
@@ -206,6 +226,10 @@ check "made-up faults of mutants.txt are not found" test "$(tr '\n' ';' <"$made/
         'tools/cli: neither tests nor a reason' 'src/raster: mutants.txt has not one row for it')"
 (cd "$made/obj" && find src -name '*.o') | by_call "$made/obj" >"$made/calls"
 (cd "$made" && by_include src) >"$made/includes"
+check "a made-up private include is not found" test "$(printf '%s\n' 'tools/cli/a.c src/base/vec.h' \
+    'tools/bench/bench_rates.c src/lane/lane.h' 'tools/bench/bench_draw.c src/lane/lane.h' \
+    'tools/cli/a.c include/lambent/draw.h' | private | tr '\n' ';')" = \
+    "tools/cli/a.c -> src/base/vec.h;tools/bench/bench_draw.c -> src/lane/lane.h;"
 check "a made-up circle of calls is not found" test "$(in_circles <"$made/calls" | sort | tr '\n' ';')" = \
     "src/base/one.c -> src/base/two.c;src/base/two.c -> src/base/one.c;"
 check "a made-up circle of includes is not found" test "$(in_circles <"$made/includes" | sort | tr '\n' ';')" = \

@@ -1,4 +1,5 @@
-# rom.sh: the ROM of bounced light without trees (LMB_TREES 0): the modules raster, direct (without light_tile, which
+# rom.sh: the ROM of bounced light without trees (LMB_TREES 0): the modules raster (without lookup, for programs that read
+# scenes), direct (without light_tile, which
 # belongs to frames) and bounce, and far light (env, env_sky), linked with the parts of other modules and of the
 # compiler's run time that they need: rom.sh BUDGET_BYTES; CC FLAGS B NM SIZE in the environment.
 . tests/scripts/checks.sh
@@ -6,7 +7,7 @@ budget=$1
 
 objects=$(find "$B/obj/src" -name '*.o' | sort)
 modules=$(printf '%s\n' "$objects" | grep -E '/src/((raster|direct|bounce)/|occlusion/occlude\.o|probe/env)' |
-    grep -v '/direct/light_tile\.o$')
+    grep -vE '/direct/light_tile\.o$|/raster/lookup\.o$')
 roots=$($NM $modules | awk '$2 == "T" { print "-Wl,-u," $3 }' | sort -u)
 check "the modules link" $CC $FLAGS -nostdlib -o "$B/rom.elf" -Wl,--gc-sections -Wl,-e,lmb_kernels_pick $roots \
     -Wl,--unresolved-symbols=ignore-all $objects -lgcc

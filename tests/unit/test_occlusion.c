@@ -102,6 +102,10 @@ static void every_triangle(void)
     int occluded = 0, open = 0, wrong = 0;
     for (int scene = 0; scene < 12; ++scene) {
         lmb_bvh b = random_triangles(&r, scene);
+        lmb_traversal again;
+        uint32_t own[LMB_TILE_PIXELS];
+        memset(&again, 0, sizeof again);
+        memset(own, scene % 2 == 0 ? 0 : 0xa5, sizeof own); /* numbers of no triangle change nothing */
         for (int round = 0; round < 40; ++round) {
             lmb_tile tile;
             const lmb_vec3 at = random_point(&r, 1.5f);
@@ -110,6 +114,8 @@ static void every_triangle(void)
             const uint64_t asked = round % 3 == 0 ? ~UINT64_C(0) : (uint64_t)test_random(&r) << 21;
             const uint64_t got = occluded_anew(&b, &tile, asked, at);
             CHECK((got & ~asked) == 0);
+            CHECK(lmb_occluded_again(picked_kernels(), &again, own, &b, &tile, asked, at, noise_of(&tile, asked, at)) ==
+                  got);
             for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
                 double surest = -1.0;
                 for (uint32_t i = 0; i < world.count; ++i) {

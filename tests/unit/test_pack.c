@@ -239,6 +239,18 @@ static void test_moves(void)
     CHECK(is_near(column(m, 0), 0, 0, -0.5f) && is_near(column(m, 3), 0, 1.5f, 0));
     CHECK(lmb_pack_pose(&scene, &opened, -1.0f) == LMB_OK && is_near(column(m, 0), 0.5f, 0, 0));
     CHECK(lmb_pack_pose(&scene, &opened, NAN) == LMB_OK);
+    CHECK(lmb_pack_pose(&scene, &opened, 0.5f) == LMB_OK);
+    lmb_instance own = scene.instances[1]; /* copies: from the transforms of another time to those of the scene */
+    lmb_light lamp = scene.lights[0];
+    memset(&own.to_world, 0, sizeof own.to_world);
+    memset(&lamp.position, 0, sizeof lamp.position);
+    CHECK(lmb_pack_place_instance(&own, &opened, 1, 0.5f) == LMB_OK &&
+          memcmp(&own, &scene.instances[1], sizeof own) == 0);
+    CHECK(lmb_pack_place_light(&lamp, &opened, 0, 0.5f) == LMB_OK && memcmp(&lamp, &scene.lights[0], sizeof lamp) == 0);
+    CHECK(lmb_pack_place_instance(&own, &opened, scene.instance_count, 0.5f) == LMB_ERR_ARG);
+    CHECK(lmb_pack_place_light(&lamp, &opened, 1000, 0.5f) == LMB_ERR_ARG);
+    CHECK(lmb_pack_place_light(NULL, &opened, 0, 0.5f) == LMB_ERR_ARG &&
+          lmb_pack_place_instance(&own, NULL, 0, 0.5f) == LMB_ERR_ARG);
     scene.light_count = 0;
     CHECK(lmb_pack_pose(&scene, &opened, 0.0f) == LMB_ERR_ARG);
 }

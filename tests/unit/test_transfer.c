@@ -3,7 +3,6 @@
 
 #include <stdlib.h>
 
-#include "../../src/bounce/polygon.h"
 #include "../../src/direct/glossy.h"
 #include "../../src/raster/target.h"
 #include "../../src/raster/tile.h"
@@ -1148,7 +1147,7 @@ static void factors_at_once(void)
     const lmb_vec3 round[3] = {corner[0], corner[is_turned ? 2 : 1], corner[is_turned ? 1 : 2]};
     const lmb_vec3 faces[] = {{0, 0, 1}, {0.6f, 0, 0.8f}, {1, 0, 0}, {0, -0.8f, 0.6f}};
     for (size_t i = 0; i < sizeof faces / sizeof faces[0]; ++i) {
-        const lmb_vec3 all = polygon_vector(at, faces[i], round, axis);
+        const lmb_vec3 all = lmb_triangle_vector(at, faces[i], round, axis);
         const float own[3] = {all.x, all.y, all.z};
         CHECK(dot3(all, all) > 0.0f);
         for (int k = 0; k < 3; ++k) {
@@ -1159,7 +1158,7 @@ static void factors_at_once(void)
         }
     }
     CHECK(lmb_polygon_factor(at, faces[0], faces[0], round, 3, mul3(axis, -1.0f)) == 0.0f &&
-          polygon_vector(at, faces[0], round, mul3(axis, -1.0f)).z == 0.0f); /* the back */
+          lmb_triangle_vector(at, faces[0], round, mul3(axis, -1.0f)).z == 0.0f); /* the back */
 }
 
 /* Form factor of the block's triangles that face the place, to a plane with this normal. */

@@ -443,6 +443,7 @@ static const void *good_one(const argument *a, size_t *bytes)
         {"lmb_relight", &g.relight, sizeof g.relight},
         {"lmb_render", &g.render, sizeof g.render},
         {"lmb_scene", f->scene, sizeof *f->scene},
+        {"lmb_mesh", f->scene->meshes, sizeof *f->scene->meshes},
         {"lmb_surface", &f->out, sizeof f->out},
         {"lmb_survey", &g.survey, sizeof g.survey},
         {"lmb_target", &f->eye, sizeof f->eye},
@@ -505,6 +506,7 @@ static void set_number(argument *a)
         {"lmb_view_sample", "samples", 4},
         {"lmb_draw_list", "primitive", LMB_DRAW_QUADS},
         {"lmb_clusters_build", "count", 1 << 17},
+        {"lmb_pack_place_light", "i", 0},
     };
     a->whole = 1;
     a->value = 0.5;

@@ -9,7 +9,6 @@
 #include "../common/io_file.h"
 #include "../common/progress.h"
 #include "../common/report.h"
-#include "bake_triangle.h"
 
 /* Accuracy. Error limits assume that all surfaces emit the same light. */
 typedef struct bake_settings {
@@ -149,12 +148,7 @@ static inline float bake_open_area(const bake_element *e) { return e->is_dark ? 
 static inline lmb_vec3 bake_place(const bake_element *e) { return e->is_one ? e->middle : e->place; }
 
 /* The normal at bake_place. */
-static inline lmb_vec3 bake_facing(const bake_element *e)
-{
-    const lmb_vec3 across = cross3(sub3(e->corner[1], e->corner[0]), sub3(e->corner[2], e->corner[0]));
-    const float length = length3(across);
-    return e->is_one || !(length > 0.0f) ? e->normal : mul3(across, 1.0f / length);
-}
+lmb_vec3 bake_facing(const bake_element *e);
 
 /* Scratch of bake_sees; one per thread. */
 typedef struct bake_sight {

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../src/base/vec.h"
+#include "../common/fvec.h"
 
 enum { SIDES = LMB_TRANSFER_AIR_RECEIVERS, TOGETHER = 10, PLACES = 1500 };
 

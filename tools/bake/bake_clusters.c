@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../common/fvec.h"
 #include "bake_share.h"
 #include "bake_triangle.h"
-#include "../../src/raster/triangle.h"
 
 enum { BATCH = 64, NEIGHBOURS = 4, TARGET = 2000, SHARING = 4 };
 #define ALIKE 0.6f /* least cosine between normals that share a cluster */

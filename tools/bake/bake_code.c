@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "../../platform/host/pool.h"
-#include "../../src/base/vec.h"
+#include "../common/fvec.h"
 
 #define SHARE 0.25f /* share of a child's area that is added to the parents */
 #define PARTS 1e-4f /* of all area: a receiver with this support has links of `error` each */

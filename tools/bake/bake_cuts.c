@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../src/raster/triangle.h"
+#include "../common/fvec.h"
 #include "bake_triangle.h"
 
 enum { DEPTH = 16, LINES = 512, FEW = 4, SHARE = 2 };

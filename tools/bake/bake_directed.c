@@ -3,13 +3,13 @@
  * These receivers are first divided like all others. Then each receiver that is a corner of such a leaf becomes a
  * cluster, and the two receivers that it is coded against become the parents. A receiver that nothing else needs is
  * removed. */
+#include "../common/fvec.h"
 #include "bake.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "bake_triangle.h"
-#include "../../src/raster/triangle.h"
 
 enum { BATCH = 64, FLAT = 1, DIRECTED = 2, FIRST_HALF = 128, SECOND_HALF = 127 /* of 255 */ };
 

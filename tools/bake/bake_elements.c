@@ -5,16 +5,24 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../common/fvec.h"
 #include "bake_triangle.h"
-#include "../../src/tree/piece.h"
 
 enum { MESH = 500, CROWD = 8, WASTE = 4, CELL = 3 /* elements of a cell, at most, that walls separate */ };
+enum { Z_BITS = 9 }; /* steps along an axis of the order, as a power of two */
 #define CONTACT 0.2f /* of an element's size: smallest size of elements that other geometry touches */
 #define CLOSER  0.5f /* of that, if enough elements are left */
 #define STANDING 0.4f /* of an element's size: size of elements with a wall at a corner */
 #define SLIVER  0.25f /* of that size: narrower triangles share elements, because they would use up all of them */
 #define BESIDE  0.1f  /* of the smallest edge: distance of the points tested on both sides of a wall */
 #define CORNERS (7u << 3) /* bits of a piece that record walls: three for edges, then three for corners */
+
+lmb_vec3 bake_facing(const bake_element *e)
+{
+    const lmb_vec3 across = cross3(sub3(e->corner[1], e->corner[0]), sub3(e->corner[2], e->corner[0]));
+    const float length = length3(across);
+    return e->is_one || !(length > 0.0f) ? e->normal : mul3(across, 1.0f / length);
+}
 
 /* If there are few small triangles, they are no mesh: the sides of a box get receivers of their own. */
 static void set_small(bake *b)
@@ -191,6 +199,16 @@ void bake_join(const bake *b, bake_element *e)
 }
 
 /* No light reaches the current triangle, as far as is known, so it shares an element only with other closed ones. */
+/* 0 .. 5: dominant axis and sign of a normal. */
+static uint32_t facing_of(lmb_vec3 n)
+{
+    const float x = absf(n.x), y = absf(n.y), z = absf(n.z);
+    if (x >= y && x >= z) {
+        return n.x < 0.0f;
+    }
+    return y >= z ? 2u + (n.y < 0.0f) : 4u + (n.z < 0.0f);
+}
+
 static uint32_t is_closed(const maker *m)
 {
     return m->b->small_open != NULL && m->is_small && m->b->small_open[m->own] == 0;
@@ -203,7 +221,7 @@ static uint32_t small_element(maker *m, const lmb_vec3 corner[3], lmb_vec3 norma
     const uint32_t cell[4] = {(uint32_t)clampf((at.x - low.x) * per, 0.0f, 1e6f),
                               (uint32_t)clampf((at.y - low.y) * per, 0.0f, 1e6f),
                               (uint32_t)clampf((at.z - low.z) * per, 0.0f, 1e6f),
-                              piece_facing(normal) | (uint32_t)m->emits << 3 | is_closed(m) << 4};
+                              facing_of(normal) | (uint32_t)m->emits << 3 | is_closed(m) << 4};
     uint32_t h = cell[0] * 73856093u ^ cell[1] * 19349663u ^ cell[2] * 83492791u ^ cell[3] * 2654435761u;
     int met = 0;
     h ^= h >> 15;
@@ -399,11 +417,30 @@ static int make(maker *m)
 
 /* --- order -------------------------------------------------------------------------------------------------------- */
 
+/* Moves bits 0, 1, 2, .. to 0, 3, 6, .. */
+static uint32_t spread_bits(uint32_t v)
+{
+    uint32_t out = 0;
+    for (int i = 0; i < Z_BITS; ++i) {
+        out |= ((v >> i) & 1u) << (3 * i);
+    }
+    return out;
+}
+
+/* Steps along an axis, of 2^Z_BITS. */
+static uint32_t step_of(float at, float low, float per)
+{
+    return (uint32_t)clampf((at - low) * per, 0.0f, (float)((1 << Z_BITS) - 1));
+}
+
+/* The facing, then the place along a Z curve. */
 uint32_t bake_key(const lmb_scene *scene, lmb_vec3 at, lmb_vec3 normal)
 {
     const float longest = largest3(sub3(scene->bounds_max, scene->bounds_min));
-    const float per = (float)(1 << PIECE_Z_BITS) / maxf(longest, 1e-30f);
-    return piece_facing(normal) << (3 * PIECE_Z_BITS) | piece_place(at, scene->bounds_min, per);
+    const float per = (float)(1 << Z_BITS) / maxf(longest, 1e-30f);
+    const lmb_vec3 low = scene->bounds_min;
+    return facing_of(normal) << (3 * Z_BITS) | spread_bits(step_of(at.x, low.x, per)) |
+           spread_bits(step_of(at.y, low.y, per)) << 1 | spread_bits(step_of(at.z, low.z, per)) << 2;
 }
 
 static int by_key(const void *a, const void *b)

@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../src/transfer/sections.h"
 #include "../common/checksum.h"
 
 /* Writes the index of the first link, their number and unit. */
@@ -67,6 +66,7 @@ static void swap_words(uint8_t *data, size_t bytes)
 
 int bake_file(file_bytes *out, bake *b, report *r)
 {
+    static const uint8_t words_each[LMB_TRANSFER_SECTIONS] = LMB_TRANSFER_WORDS_EACH;
     uint32_t head[LMB_TRANSFER_HEADER_WORDS] = {0, 0x01020304u};
     uint64_t words = LMB_TRANSFER_HEADER_WORDS;
     lmb_transfer own;
@@ -82,7 +82,7 @@ int bake_file(file_bytes *out, bake *b, report *r)
                              (uint32_t)b->section[LMB_TRANSFER_MOVING].count / LMB_TRANSFER_MOVING_WORDS);
     head[5] = b->leaves;
     for (int s = 0; s < LMB_TRANSFER_SECTIONS; ++s) {
-        head[6 + s] = (uint32_t)(b->section[s].count / transfer_words_each[s]);
+        head[6 + s] = (uint32_t)(b->section[s].count / words_each[s]);
         words += b->section[s].count;
     }
     head[2] = (uint32_t)(4 * words);

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../src/base/vec.h"
+#include "../common/fvec.h"
 
 enum { AXES = 3, MAX_LINKS = 4096 };
 #define FOREIGN 1e30f /* error of a node with elements of several zones, which do not see each other */

@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-#include "../../src/base/vec.h"
+#include "../common/fvec.h"
 
 enum { FIRST = 32, GROUPS = 256, AXES = 3, ROUNDS = 24 };
 #define TURN 64.0f /* normals at a right angle count as this squared distance in cells */

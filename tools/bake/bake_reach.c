@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../src/base/vec.h"
+#include "../common/fvec.h"
 #include "bake_share.h"
 
 enum { BATCH = 64, PARTS = 64, WITNESSES = BAKE_NEAREST, SHARED = 1024 /* SHARED elements: slices share a step */ };
@@ -132,7 +132,7 @@ static void unite_seen(reach *w, const uint32_t *from)
     uint32_t first = LMB_TRANSFER_NONE;
     for (uint32_t i = 0; i < w->b->element_count; ++i) {
         for (uint64_t bits = w->seen[i]; from != NULL && bits != 0; bits &= bits - 1) {
-            unite(w, from[lowest_bit_64(bits)], i);
+            unite(w, from[lowest_bit(bits)], i);
         }
         if (from == NULL && w->seen[i] != 0) {
             first = first == LMB_TRANSFER_NONE ? i : first;
@@ -345,9 +345,9 @@ static void open_element(const reach *w, bake_element *e, lmb_tile *tile, lmb_tr
         hidden &= lmb_occluded_tile(w->b->kernels, traversal, &w->b->bvh, tile, hidden, witness.at[k],
                                     noise + lmb_place_noise(witness.at[k], 0.0f));
     }
-    const int open = PARTS - count_bits_64(hidden);
+    const int open = PARTS - count_bits(hidden);
     for (uint64_t bits = ~hidden; bits != 0; bits &= bits - 1) {
-        sum = add3(sum, at[lowest_bit_64(bits)]);
+        sum = add3(sum, at[lowest_bit(bits)]);
     }
     if (open == 0 && e->light > w->bright) { /* the middle is lit, but not from these witnesses */
         return;

@@ -6,9 +6,9 @@
 #include <string.h>
 
 #include "../../platform/host/pool.h"
+#include "../common/fvec.h"
 #include "bake_share.h"
 #include "bake_triangle.h"
-#include "../../src/raster/triangle.h"
 
 enum { BATCH = 64, DEPTH = 24, SEARCH = 6, ROUND = 64, PLACES = 4 };
 #define DIM    0.25f /* of the mean light: in darker places errors count less */

@@ -6,11 +6,10 @@
 #include <string.h>
 
 #include "../../platform/host/pool.h"
-#include "../../src/base/poly.h"
-#include "../../src/bounce/polygon.h"
-#include "../../src/occlusion/traversal.h"
+#include "../common/fvec.h"
 #include "bake_triangle.h"
 
+#define PI 3.14159274f
 #define DISC2 100.0f /* squared distance from which a part is a disc, over squared reach: 0.5 % error at most */
 enum { CHUNK = 64, CUTS = 4, FEW = 4 };
 
@@ -54,7 +53,7 @@ static float disc_factor(lmb_vec3 *to, const bake_element *e, const part *p, lmb
 {
     const float cosine = -dot3(d, e->normal) * e->facing, per = 1.0f / sqrtf(d2);
     *to = mul3(d, per);
-    return cosine > 0.0f ? cosine * per * p->area / (LMB_PI * d2 + p->area) : 0.0f;
+    return cosine > 0.0f ? cosine * per * p->area / (PI * d2 + p->area) : 0.0f;
 }
 
 static float factor_along(const bake_element *e, const part *p, lmb_vec3 at, lmb_vec3 face, lmb_vec3 along)
@@ -79,7 +78,7 @@ static int factors(float out[3], const bake_element *e, const part *p, lmb_vec3 
         out[0] = factor_along(e, p, at, n, n);
         return out[0] > 0.0f;
     }
-    const lmb_vec3 all = polygon_vector(at, n, p->corner, e->normal);
+    const lmb_vec3 all = lmb_triangle_vector(at, n, p->corner, e->normal);
     out[0] = all.x;
     out[1] = all.y;
     out[2] = all.z;
@@ -111,7 +110,7 @@ static void see_part(seen *out, const rows *w, const bake_element *e, const part
     const lmb_vec3 q = e->is_one ? p->middle : e->place;
     out->lit = out->hidden = 0;
     for (uint64_t bits = points; bits != 0; bits &= bits - 1) {
-        const int k = lowest_bit_64(bits);
+        const int k = lowest_bit(bits);
         out->lit |= (uint64_t)(factors(out->f[k], e, p, w->at[k], w->normal[k], w->axes) != 0) << k;
         for (int a = 0; a < w->axes; ++a) {
             out->f[k][a] *= share;
@@ -127,7 +126,7 @@ static void see_part(seen *out, const rows *w, const bake_element *e, const part
 static void add_seen(const rows *w, uint32_t j, const seen *s, uint64_t points)
 {
     for (uint64_t bits = points & s->lit & ~s->hidden; bits != 0; bits &= bits - 1) {
-        const int k = lowest_bit_64(bits);
+        const int k = lowest_bit(bits);
         for (int a = 0; a < w->axes; ++a) {
             w->row[w->axes * k + a][j] += s->f[k][a];
         }
@@ -185,7 +184,7 @@ static void add_triangle(const rows *w, const bake_element *e, uint32_t j, uint6
     uint64_t points[CUTS + 1] = {0, 0, 0, 0, 0};
     part whole;
     for (uint64_t bits = of; bits != 0; bits &= bits - 1) {
-        const int k = lowest_bit_64(bits);
+        const int k = lowest_bit(bits);
         if (!e->is_one || dot3(sub3(e->middle, w->at[k]), e->normal) < 0.0f) {
             points[w->b->by_middles ? 0 : cuts_for(e, w->at[k])] |= (uint64_t)1 << k;
         }

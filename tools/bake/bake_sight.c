@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../src/occlusion/traversal.h"
+#include "../common/fvec.h"
 #include "bake_triangle.h"
 
 #define FIRST 16384 /* visibility tests that a job starts with; each call adds more */
@@ -19,7 +19,8 @@ int bake_sight_begin(bake_sight *s, report *r)
     if (s->tile == NULL) {
         return report_fail(r, "not enough memory for a tile");
     }
-    traversal_bound(&s->traversal);
+    s->traversal.bounded = 1;
+    s->traversal.left = LMB_TRAVERSAL_FIRST;
     s->tile->hits = 1;
     s->tile->id[0] = 1;
     s->tile->depth[0] = 1.0f;
@@ -29,7 +30,8 @@ int bake_sight_begin(bake_sight *s, report *r)
 void bake_bound(lmb_traversal *traversal)
 {
     const uint32_t coarse = traversal->coarse;
-    traversal_bound(traversal);
+    memset(traversal, 0, sizeof *traversal);
+    traversal->bounded = 1;
     traversal->left = FIRST;
     traversal->coarse = coarse;
 }

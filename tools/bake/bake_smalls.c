@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "../../platform/host/pool.h"
+#include "../common/fvec.h"
 #include "bake_triangle.h"
-#include "../../src/raster/triangle.h"
 
 enum { QUARTERS = 4, TOGETHER = LMB_TILE_PIXELS / QUARTERS, WITNESSES = 24 };
 #define OVER  0.05f /* of the smallest edge: height of the sample points */
@@ -104,7 +104,7 @@ static uint64_t before(const lmb_tile *tile, lmb_vec3 q)
 /* Sets the share and middle of the quarters that light reaches. */
 static void open_part(bake_part *p, uint32_t own)
 {
-    const int count = count_bits_64(own);
+    const int count = count_bits(own);
     lmb_vec3 place[QUARTERS], sum = vec3(0.0f, 0.0f, 0.0f);
     bake_quarters(place, p->corner);
     for (int k = 0; k < QUARTERS; ++k) {

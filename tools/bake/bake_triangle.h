@@ -2,7 +2,7 @@
 #ifndef BAKE_TRIANGLE_H
 #define BAKE_TRIANGLE_H
 
-#include "../../src/base/vec.h"
+#include "../common/fvec.h"
 
 static inline float triangle_area(const lmb_vec3 corner[3])
 {

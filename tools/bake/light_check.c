@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../src/raster/triangle.h"
+#include "../common/fvec.h"
 #include "../model/model.h"
 #include "../picture/metrics.h"
 

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../src/raster/triangle.h"
-#include "../../src/transfer/halvings.h"
+#include "../common/fvec.h"
+#include "../model/io_lmt.h"
 #include "bake_triangle.h"
 
 #define INSIDE 0.002f /* of the way to the middle: the light of a leaf's corners is sampled this far inside */
@@ -119,8 +119,8 @@ static int divide(colours *c, uint32_t at, const light_corner corner[3], lmb_vec
         const light_corner turned[3] = {corner[2], corner[1], corner[0]};
         return put_leaf(c, is_turned ? turned : corner, face, id);
     }
-    const transfer_halving h = halving_of(&c->s->job.transfer, word);
-    const int to = halving_to(h.from);
+    const lmt_halving h = lmt_halving_of(&c->s->job.transfer, at);
+    const int to = h.to;
     const light_corner between = light_along(&corner[h.from], &corner[to], h.part);
     light_corner half[3];
     memcpy(half, corner, sizeof half);

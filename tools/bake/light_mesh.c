@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../src/raster/triangle.h"
+#include "../common/fvec.h"
 
 static lmb_vec3 unit_or(lmb_vec3 v, lmb_vec3 other)
 {
@@ -37,7 +37,10 @@ static void read_streams(light_corner *c, const lmb_triangle *t, const model_sou
     memset(c->uv, 0, sizeof c->uv);
     memset(c->tangent, 0, sizeof c->tangent);
     if (source == NULL) {
-        mesh_uv(t->mesh, vertex, c->uv[0]);
+        lmb_vertex own;
+        if (lmb_mesh_vertex(&own, t->mesh, vertex)) {
+            memcpy(c->uv[0], own.uv, sizeof c->uv[0]);
+        }
         return;
     }
     for (int set = 0; set < MODEL_UV_SETS; ++set) {
@@ -51,9 +54,6 @@ static void read_streams(light_corner *c, const lmb_triangle *t, const model_sou
     }
 }
 
-/* Returns the position of a vertex in object space. */
-static lmb_vec3 own_place(const lmb_triangle *t, uint32_t vertex) { return mesh_position(t->mesh, vertex); }
-
 int light_corners(light_corner out[3], lmb_vec3 *face, const lmb_scene *scene, const model_source *source, uint32_t id,
                   uint32_t back)
 {
@@ -64,16 +64,21 @@ int light_corners(light_corner out[3], lmb_vec3 *face, const lmb_scene *scene, c
     }
     const lmb_vec3 across = cross3(sub3(t.corner[1], t.corner[0]), sub3(t.corner[2], t.corner[0]));
     const int is_mirrored = dot3(across, *face) < 0.0f; /* the front is the clockwise side */
-    const lmb_vec3 first = own_place(&t, t.vertex[0]);
-    const lmb_vec3 flat =
-        unit_or(cross3(sub3(own_place(&t, t.vertex[1]), first), sub3(own_place(&t, t.vertex[2]), first)), *face);
+    lmb_vertex own[3];
+    for (int k = 0; k < 3; ++k) {
+        if (!lmb_mesh_vertex(&own[k], t.mesh, t.vertex[k])) {
+            return 0;
+        }
+    }
+    const lmb_vec3 first = own[0].position;
+    const lmb_vec3 flat = unit_or(cross3(sub3(own[1].position, first), sub3(own[2].position, first)), *face);
     *face = back ? mul3(*face, -1.0f) : *face;
     for (int k = 0; k < 3; ++k) {
         const int from = (back != 0) != is_mirrored ? 2 - k : k;
         light_corner *c = &out[k];
         c->at = t.corner[from];
-        c->own_at = own_place(&t, t.vertex[from]);
-        c->own_normal = t.mesh->normals != NULL ? mesh_normal(t.mesh, t.vertex[from]) : back ? mul3(flat, -1.0f) : flat;
+        c->own_at = own[from].position;
+        c->own_normal = t.mesh->normals != NULL ? own[from].normal : back ? mul3(flat, -1.0f) : flat;
         c->normal = t.mesh->normals != NULL ? unit_or(to_world(&t.instance->to_world, c->own_normal), *face) : *face;
         if (dot3(c->normal, *face) < 0.0f) {
             c->normal = mul3(c->normal, -1.0f);

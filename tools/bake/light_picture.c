@@ -10,8 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../src/raster/triangle.h"
-#include "../../src/transfer/halvings.h"
+#include "../common/fvec.h"
+#include "../model/io_lmt.h"
 #include "bake_triangle.h"
 
 #define ALIKE  0.8f /* least cosine between a triangle and the chart that it joins */
@@ -98,8 +98,8 @@ static void put_parts(map *m, const face *of, uint32_t at, int is_turned)
         f->area = triangle_area(corner);
         return;
     }
-    const transfer_halving h = halving_of(t, t->section[LMB_TRANSFER_DIVISIONS][at]);
-    const int from = h.from, to = halving_to(from);
+    const lmt_halving h = lmt_halving_of(t, at);
+    const int from = h.from, to = h.to;
     const uint32_t own = of->walls >> from & 1u, next = of->walls >> to & 1u, last = of->walls >> (to + 1) % 3 & 1u;
     face half = *of;
     half.corner[to] = light_along(&of->corner[from], &of->corner[to], h.part);
@@ -142,7 +142,7 @@ static int put_faces(map *m)
             f.corner[2] = f.corner[is_turned ? 0 : 2];
             f.corner[0] = first;
             f.id = id;
-            f.object = 2 * (uint32_t)(lmb_instance_of(scene, id) - scene->instances) + back;
+            f.object = 2 * (uint32_t)(own.instance - scene->instances) + back;
             put_parts(m, &f, root, is_turned);
         }
     }
@@ -542,8 +542,7 @@ static int put_mesh(map *m, glb_mesh *out, uint32_t first, uint32_t past)
 {
     const lmb_scene *scene = &m->s->job.scene;
     light_mesh own;
-    int ok =
-        light_mesh_begin(&own, scene, (uint32_t)(lmb_instance_of(scene, m->face[first].id) - scene->instances), m->r);
+    int ok = light_mesh_begin(&own, scene, m->face[first].object / 2, m->r);
     for (uint32_t i = first; ok && i < past; ++i) {
         glb_vertex v[3];
         for (int k = 0; k < 3; ++k) {

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "../common/byte_buffer.h"
+#include "../common/fvec.h"
 #include "../common/io_json.h"
 #include "../common/text_buffer.h"
 

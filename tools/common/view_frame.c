@@ -1,10 +1,10 @@
 /* view_frame.c: a default view that frames a scene without a camera. */
 #include "view_frame.h"
 
+#include <lambent/lookup.h>
 #include <math.h>
 
-#include "../../src/base/vec.h"
-#include "../../src/raster/triangle.h"
+#include "fvec.h"
 
 #define FRAME_FOV 0.698f /* 40 degrees */
 #define AIR       0.94   /* share of the picture that is filled, horizontally or vertically */

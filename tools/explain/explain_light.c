@@ -5,8 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../src/base/vec.h"
-#include "../../src/raster/texture.h"
+#include "../common/fvec.h"
 
 #define PI 3.14159265358979
 
@@ -113,41 +112,21 @@ void explain_lights(explain_light *out, explain_space *s, const explain_place *p
 
 /* --- surfaces that send light ------------------------------------------------------------------------------------- */
 
-static uint32_t vertex_of(const lmb_mesh *m, uint32_t corner)
-{
-    return m->index_format == LMB_INDEX_U16   ? ((const uint16_t *)m->indices)[corner]
-           : m->index_format == LMB_INDEX_U32 ? ((const uint32_t *)m->indices)[corner]
-                                              : corner;
-}
-
-static void uv_of(double out[2], const lmb_mesh *m, uint32_t vertex)
-{
-    for (int c = 0; c < 2; ++c) {
-        const size_t i = 2 * (size_t)vertex + (size_t)c;
-        out[c] = m->uv_format == LMB_UV_U16 ? (double)m->uv_scale[c] * ((const uint16_t *)m->uvs)[i] / 65535.0
-                                            : (double)((const float *)m->uvs)[i];
-    }
-}
-
 /* The diffuse albedo at a hit with these barycentric coordinates, and the emitted radiance, by level 0 of the textures:
  * rays average many texels. */
-static void material_at(double albedo[3], double emission[3], const lmb_scene *scene, const lmb_instance *of,
-                        uint32_t id, const double part[3])
+static void material_at(double albedo[3], double emission[3], const lmb_scene *scene, const lmb_triangle *t,
+                        const double part[3])
 {
-    const lmb_material *m = &scene->materials[of->material];
-    const lmb_mesh *mesh = &scene->meshes[of->mesh];
+    const lmb_material *m = t->material;
     float texture[4] = {1.0f, 1.0f, 1.0f, 1.0f}, glow[4] = {1.0f, 1.0f, 1.0f, 1.0f}, code[4];
     double uv[2] = {0.0, 0.0}, colour[3] = {0.0, 0.0, 0.0}, rest = 1.0; /* rest: the share that is no metal */
     for (uint32_t k = 0; k < 3; ++k) {
-        const uint32_t vertex = vertex_of(mesh, 3 * (id - of->first_id) + k);
-        double corner[2] = {0.0, 0.0};
-        if (mesh->uvs != NULL) {
-            uv_of(corner, mesh, vertex);
-        }
-        uv[0] += part[k] * corner[0];
-        uv[1] += part[k] * corner[1];
+        lmb_vertex v;
+        lmb_mesh_vertex(&v, t->mesh, t->vertex[k]);
+        uv[0] += part[k] * (double)v.uv[0];
+        uv[1] += part[k] * (double)v.uv[1];
         for (size_t c = 0; c < 3; ++c) {
-            colour[c] += part[k] * (mesh->colours != NULL ? mesh->colours[4 * (size_t)vertex + c] / 255.0 : 1.0);
+            colour[c] += part[k] * (double)v.colour[c];
         }
     }
     if (m->texture >= 0) {
@@ -158,7 +137,7 @@ static void material_at(double albedo[3], double emission[3], const lmb_scene *s
     }
     if (m->metal_map > 0) {
         lmb_normal_map_sample(code, &scene->textures[m->metal_map - 1], (float)uv[0], (float)uv[1], 0.0f);
-        rest = 1.0 - (double)metallic_of(m, code);
+        rest = 1.0 - (double)fminf(m->metallic * fmaxf(0.5f + 0.5f * code[2], 0.0f), 1.0f);
     }
     for (int c = 0; c < 3; ++c) {
         albedo[c] = (double)m->albedo[c] * (double)texture[c] * colour[c] * rest;
@@ -178,20 +157,6 @@ static void parts_of(double out[3], const lmb_bvh_triangle *t, lmb_vec3 at)
     for (int k = 0; k < 3; ++k) {
         out[k] = all != 0.0 ? area[k] / all : 1.0 / 3.0;
     }
-}
-
-static uint32_t instance_of(const lmb_scene *scene, uint32_t id)
-{
-    uint32_t low = 0, high = scene->instance_count;
-    while (high - low > 1) {
-        const uint32_t middle = low + (high - low) / 2;
-        if (scene->instances[middle].first_id <= id) {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    return low;
 }
 
 /* Ray i of n over the half sphere: by the cosine, on a lattice of low discrepancy (Roberts' R2 sequence). */
@@ -268,11 +233,11 @@ static void add_hits(explain_bounce *out, explain_space *s, const hits *h)
         add_lights(direct, s, h, s->sky, s->sky_count, EXPLAIN_SKY, noise);
     }
     for (int k = 0; k < h->count; ++k) {
-        const uint32_t number = instance_of(s->scene, h->place[k].id);
-        const lmb_instance *of = &s->scene->instances[number];
-        explain_sender *e = &out->sender[number];
+        lmb_triangle t;
+        lmb_triangle_fetch(&t, s->scene, h->place[k].id);
+        explain_sender *e = &out->sender[t.instance - s->scene->instances];
         double albedo[3], emission[3], sum = 0.0;
-        material_at(albedo, emission, s->scene, of, h->place[k].id, h->part[k]);
+        material_at(albedo, emission, s->scene, &t, h->part[k]);
         for (int c = 0; c < 3; ++c) {
             const double emitted = PI * emission[c] / EXPLAIN_RAYS;
             const double sent = albedo[c] * direct[k][c] / EXPLAIN_RAYS + emitted;
@@ -319,8 +284,9 @@ void explain_gather(explain_bounce *out, explain_space *s, const explain_place *
         const lmb_bvh_triangle *t = &s->bvh.triangle[found - 1];
         const uint32_t id = t->id & ~LMB_BVH_MASKED;
         const int is_back = dot3(t->normal, along) > 0.0f;
-        const lmb_material *m = &s->scene->materials[s->scene->instances[instance_of(s->scene, id)].material];
-        if (is_back && (m->flags & LMB_DOUBLE_SIDED) == 0) {
+        lmb_triangle own;
+        lmb_triangle_fetch(&own, s->scene, id);
+        if (is_back && (own.material->flags & LMB_DOUBLE_SIDED) == 0) {
             ++out->dark;
             continue;
         }

@@ -5,8 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../src/raster/resolve.h"
-
 int explain_space_make(explain_space *s, const lmb_scene *scene, const lmb_kernels *kernels, report *r)
 {
     const uint32_t triangles = lmb_scene_triangles(scene);
@@ -72,12 +70,38 @@ static double crossing(float part[2], const lmb_bvh_triangle *t, const double fr
     return fmax(far_m / det, 0.0);
 }
 
+/* Alpha at barycentric coordinates, which rounding may have moved outside. */
+static float alpha_at(const lmb_scene *scene, const lmb_triangle *t, const float part[2])
+{
+    const float b1 = fminf(fmaxf(part[0], 0.0f), 1.0f), b2 = fminf(fmaxf(part[1], 0.0f), 1.0f - b1);
+    float of[3][3] = {{0.0f}}, at[3], texel[4] = {0.0f, 0.0f, 0.0f, 1.0f}; /* alpha, u, v */
+    for (int k = 0; k < 3; ++k) {
+        lmb_vertex v;
+        if (lmb_mesh_vertex(&v, t->mesh, t->vertex[k])) {
+            of[0][k] = t->material->alpha * v.colour[3];
+            of[1][k] = v.uv[0];
+            of[2][k] = v.uv[1];
+        }
+    }
+    for (int c = 0; c < 3; ++c) {
+        at[c] = of[c][0] + ((of[c][1] - of[c][0]) * b1 + (of[c][2] - of[c][0]) * b2);
+    }
+    if (t->material->texture >= 0) {
+        lmb_texture_sample(texel, &scene->textures[t->material->texture], at[1], at[2], 0.0f);
+    }
+    return at[0] * texel[3];
+}
+
 /* 1 if a triangle of the BVH has no hole there. */
 static int is_opaque(const lmb_scene *scene, const lmb_bvh_triangle *t, const float part[2])
 {
     lmb_triangle masked;
-    return (t->id & LMB_BVH_MASKED) == 0 || (lmb_triangle_fetch(&masked, scene, t->id & ~LMB_BVH_MASKED) &&
-                                             lmb_triangle_opaque(&masked, scene, part[0], part[1]));
+    if ((t->id & LMB_BVH_MASKED) == 0) {
+        return 1;
+    }
+    return lmb_triangle_fetch(&masked, scene, t->id & ~LMB_BVH_MASKED) &&
+           ((masked.material->flags & LMB_ALPHA_MASK) == 0 ||
+            alpha_at(scene, &masked, part) >= masked.material->alpha_cutoff);
 }
 
 static int meets_box(const lmb_boxes *b, int k, const double from[3], const double along[3], double reach)

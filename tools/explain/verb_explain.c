@@ -103,13 +103,11 @@ static void print_instance(const explanation *e, uint32_t instance)
                (unsigned)e->job.scene.instances[instance].material);
 }
 
+/* The instance of a triangle that is drawn. */
 static uint32_t instance_of(const lmb_scene *scene, uint32_t id)
 {
-    uint32_t i = scene->instance_count;
-    while (i > 1 && scene->instances[i - 1].first_id > id) {
-        --i;
-    }
-    return i - 1;
+    lmb_triangle t;
+    return lmb_triangle_fetch(&t, scene, id) ? (uint32_t)(t.instance - scene->instances) : 0;
 }
 
 static const lmb_material *material_of(const explanation *e)

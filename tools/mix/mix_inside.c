@@ -1,6 +1,5 @@
 /* mix_inside.c: is all of the object in the picture, and how large is it there?
  * Tests vertices, because the scene-aligned box of a rotated object is larger than the object. */
-#include "../../src/raster/triangle.h"
 #include "mix_frames.h"
 #include "mix_turn.h"
 

@@ -3,8 +3,6 @@
 
 #include <string.h>
 
-#include "../../src/base/motion.h"
-#include "../../src/base/records.h"
 #include "../common/checksum.h"
 #include "model_motion.h"
 
@@ -54,25 +52,32 @@ static void name_cameras(model *m, const lmb_pack *p)
     }
 }
 
+static const uint32_t *record_of(const lmb_pack *p, int kind, uint32_t words, uint32_t i)
+{
+    return p->part[kind] + (size_t)words * i;
+}
+
 static int take_cameras(model_build *b, const lmb_pack *p)
 {
     model *m = b->out;
     m->camera_count = p->count[LMB_PACK_CAMERAS];
     m->cameras = (model_camera *)build_keep(b, m->camera_count, sizeof *m->cameras);
     for (uint32_t i = 0; m->cameras != NULL && i < m->camera_count; ++i) {
-        const uint32_t *w = lmb_pack_record(p, LMB_PACK_CAMERAS, i);
+        const uint32_t *w = record_of(p, LMB_PACK_CAMERAS, LMB_PACK_CAMERA_WORDS, i);
         model_camera *c = &m->cameras[i];
-        c->eye = lmb_pack_vec(w);
-        c->right = lmb_pack_vec(w + 3);
-        c->up = lmb_pack_vec(w + 6);
-        c->back = lmb_pack_vec(w + 9);
+        float f[19];
+        memcpy(f, w, sizeof f);
+        memcpy(&c->eye, f, sizeof c->eye);
+        memcpy(&c->right, f + 3, sizeof c->right);
+        memcpy(&c->up, f + 6, sizeof c->up);
+        memcpy(&c->back, f + 9, sizeof c->back);
         c->orthographic = w[12] == LMB_ORTHOGRAPHIC;
-        c->half_width = lmb_pack_float(w + 13);
-        c->half_height = lmb_pack_float(w + 14);
-        c->aspect = lmb_pack_float(w + 15);
-        c->near_m = lmb_pack_float(w + 16);
-        c->far_m = lmb_pack_float(w + 17);
-        c->yfov_rad = lmb_pack_float(w + 18);
+        c->half_width = f[13];
+        c->half_height = f[14];
+        c->aspect = f[15];
+        c->near_m = f[16];
+        c->far_m = f[17];
+        c->yfov_rad = f[18];
     }
     if (m->cameras != NULL) {
         name_cameras(m, p);
@@ -82,11 +87,12 @@ static int take_cameras(model_build *b, const lmb_pack *p)
 
 /* --- moving items ------------------------------------------------------------------------------------------------- */
 
-static const uint32_t *nodes_of(model_build *b, const lmb_pack *p, int kind)
+/* `word`: of a record with `words`, names the node that moves the item. */
+static const uint32_t *nodes_of(model_build *b, const lmb_pack *p, int kind, uint32_t words, uint32_t word)
 {
     uint32_t *out = (uint32_t *)build_keep(b, p->count[kind], sizeof *out);
     for (uint32_t i = 0; out != NULL && i < p->count[kind]; ++i) {
-        out[i] = lmb_pack_node_of(p, kind, i);
+        out[i] = record_of(p, kind, words, i)[word];
     }
     return out;
 }
@@ -104,15 +110,15 @@ static int take_motion(model_build *b, const lmb_pack *p)
     m->nodes = p->count[LMB_PACK_NODES];
     m->tracks = p->count[LMB_PACK_TRACKS];
     m->end_s = (double)p->seconds;
-    m->of_instance = nodes_of(b, p, LMB_PACK_INSTANCES);
-    m->of_light = nodes_of(b, p, LMB_PACK_LIGHTS);
-    m->of_camera = nodes_of(b, p, LMB_PACK_CAMERAS);
+    m->of_instance = nodes_of(b, p, LMB_PACK_INSTANCES, LMB_PACK_INSTANCE_WORDS, 14);
+    m->of_light = nodes_of(b, p, LMB_PACK_LIGHTS, LMB_PACK_LIGHT_WORDS, 12);
+    m->of_camera = nodes_of(b, p, LMB_PACK_CAMERAS, LMB_PACK_CAMERA_WORDS, 19);
     m->moves = (uint8_t *)build_keep(b, m->nodes, 1);
     if (m->of_instance == NULL || m->of_light == NULL || m->of_camera == NULL || m->moves == NULL) {
         return 0;
     }
     for (uint32_t i = 0; i < m->nodes; ++i) {
-        const uint32_t *w = lmb_pack_record(p, LMB_PACK_NODES, i);
+        const uint32_t *w = record_of(p, LMB_PACK_NODES, LMB_PACK_NODE_WORDS, i);
         m->moves[i] = w[2] > 0 || (w[0] != LMB_PACK_NONE && m->moves[w[0]]);
     }
     b->out->motion = m;

@@ -2,7 +2,6 @@
  * marked until a mesh that draws it is processed. */
 #include <string.h>
 
-#include "../../src/base/vertex.h"
 #include "mend_normals.h"
 #include "smooth_normals.h"
 
@@ -33,8 +32,8 @@ static void set_normal(const lmb_mesh *m, uint32_t vertex, const double v[3])
 static uint32_t marked_of(const lmb_mesh *m, uint32_t triangle, uint32_t vertex[3])
 {
     uint32_t i, count = 0;
-    mesh_triangle(m, triangle, vertex);
     for (i = 0; i < 3; ++i) {
+        vertex[i] = lmb_mesh_index(m, 3 * triangle + i);
         if (vertex[i] >= m->vertex_count)
             return 0;
         count += (uint32_t)is_marked(m, vertex[i]);

@@ -5,8 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../src/base/motion.h"
-
 /* --- matrices ----------------------------------------------------------------------------------------------------- */
 
 int model_compose(double m[16], const model_local *l)
@@ -301,17 +299,15 @@ static int pose_pack(lmb_instance *instances, lmb_light *lights, model_camera *c
 {
     uint32_t i;
     lmb_view v;
-    memset(&v, 0, sizeof v);
     for (i = 0; i < of->scene.instance_count; ++i)
-        if (!lmb_pack_place_instance(&instances[i], of->pack, i, time_s))
+        if (lmb_pack_place_instance(&instances[i], of->pack, i, time_s) != LMB_OK)
             return 0;
     for (i = 0; i < of->scene.light_count; ++i)
-        if (!lmb_pack_place_light(&lights[i], of->pack, i, time_s))
+        if (lmb_pack_place_light(&lights[i], of->pack, i, time_s) != LMB_OK)
             return 0;
     for (i = 0; i < of->camera_count; ++i) {
         model_camera *c = &cameras[i];
-        v.eye = c->eye, v.right = c->right, v.up = c->up, v.back = c->back;
-        if (!lmb_pack_place_camera(&v, of->pack, i, time_s))
+        if (lmb_pack_view(&v, of->pack, &of->scene, i, time_s, 1, 1) != LMB_OK)
             return 0;
         c->eye = v.eye, c->right = v.right, c->up = v.up, c->back = v.back;
     }

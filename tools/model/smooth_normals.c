@@ -7,7 +7,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../src/base/poly.h"
 #include "io_obj.h"
 #include "smooth_normals.h"
 

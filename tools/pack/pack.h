@@ -76,6 +76,9 @@ double pack_encode(pack_buffer *out, const lmb_texture *t, int format, int alpha
 int pack_file(file_bytes *out, const pack *p, report *r);
 void pack_swap(file_bytes *inout, const lmb_pack *opened);
 
+/* Sets counts, formats and streams of mesh i, in place. */
+void pack_streams(lmb_mesh *out, const lmb_pack *opened, uint32_t i);
+
 /* pack_code: writes the file as a C array `name`. */
 int pack_code(const char *path, const char *name, const file_bytes *file, int is_big, report *r);
 

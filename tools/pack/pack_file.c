@@ -2,9 +2,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../src/base/records.h"
 #include "../common/checksum.h"
 #include "pack.h"
+
+static const uint8_t words_each[LMB_PACK_KINDS] = LMB_PACK_WORDS_EACH;
 
 enum { ALIGNMENT = 16 }; /* of parts, for cache lines and for copying hardware with large units */
 
@@ -20,7 +21,7 @@ static uint32_t aligned(uint32_t at) { return (at + ALIGNMENT - 1) / ALIGNMENT *
 /* Converts offsets in records of a kind: `count` words from word `first` on. */
 static void set_offsets(uint8_t *file, const uint32_t *at, const pack *p, int kind, int first, int count, int to)
 {
-    const size_t each = lmb_pack_words_each[kind], records = p->part[kind].size / 4 / each;
+    const size_t each = words_each[kind], records = p->part[kind].size / 4 / each;
     uint32_t *word = (uint32_t *)(void *)(file + at[kind]) + first;
     for (size_t i = 0; i < records; ++i, word += each) {
         for (int k = 0; k < count; ++k) {
@@ -101,6 +102,26 @@ static void swap_at(uint8_t *file, const void *in_it, size_t count, size_t each)
     }
 }
 
+/* An offset of 0 means no data. */
+static const void *at_offset(const lmb_pack *p, uint32_t offset) { return offset != 0 ? p->data + offset / 4 : NULL; }
+
+void pack_streams(lmb_mesh *out, const lmb_pack *p, uint32_t i)
+{
+    const uint32_t *w = p->part[LMB_PACK_MESHES] + LMB_PACK_MESH_WORDS * (size_t)i;
+    memset(out, 0, sizeof *out);
+    out->vertex_count = w[0];
+    out->triangle_count = w[1];
+    out->position_format = (uint8_t)(w[2] & 255u);
+    out->uv_format = (uint8_t)(w[2] >> 8 & 255u);
+    out->index_format = (uint8_t)(w[2] >> 16 & 255u);
+    out->positions = at_offset(p, w[3]);
+    out->normals = at_offset(p, w[4]);
+    out->tangents = at_offset(p, w[5]);
+    out->uvs = at_offset(p, w[6]);
+    out->colours = at_offset(p, w[7]);
+    out->indices = at_offset(p, w[8]);
+}
+
 static void swap_mesh(uint8_t *file, const lmb_mesh *m)
 {
     const size_t vertices = m->vertex_count, corners = 3 * (size_t)m->triangle_count;
@@ -119,19 +140,20 @@ void pack_swap(file_bytes *inout, const lmb_pack *p)
     const uint8_t *done = file;
     for (uint32_t i = 0; i < p->count[LMB_PACK_MESHES]; ++i) {
         lmb_mesh m;
-        lmb_pack_take_mesh(&m, p, i);
+        pack_streams(&m, p, i);
         swap_mesh(file, &m);
     }
     for (uint32_t i = 0; i < p->count[LMB_PACK_TEXTURES]; ++i) {
-        lmb_texture t;
-        lmb_pack_take_texture(&t, p, i);
-        if (t.format == LMB_TEXELS_RGB565 && t.texels > done) {
-            swap_at(file, t.texels, lmb_texture_bytes(t.width, t.height, t.levels) / 4, 2);
-            done = t.texels;
+        const uint32_t *w = p->part[LMB_PACK_TEXTURES] + LMB_PACK_TEXTURE_WORDS * (size_t)i;
+        const uint8_t *texels = at_offset(p, w[0]);
+        if ((w[2] >> 8 & 255u) == LMB_TEXELS_RGB565 && texels > done) {
+            swap_at(file, texels,
+                    lmb_texture_bytes((int32_t)(w[1] & 65535u), (int32_t)(w[1] >> 16), (int32_t)(w[2] & 255u)) / 4, 2);
+            done = texels;
         }
     }
     for (int kind = 1; kind < LMB_PACK_KINDS; ++kind) {
-        if (lmb_pack_words_each[kind] > 0) {
+        if (words_each[kind] > 0) {
             swap_at(file, p->part[kind], p->bytes[kind] / 4, 4);
         }
     }

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../src/base/vertex.h"
+#include "../common/fvec.h"
 #include "pack.h"
 
 enum { VERTEX_WORDS = 9 };
@@ -79,7 +79,7 @@ static void add_material(mesh_job *j, const lmb_scene *s, const lmb_material *m)
 
 static int is_corner(const lmb_mesh *m, uint32_t corner, uint32_t *vertex)
 {
-    *vertex = mesh_index(m, corner);
+    *vertex = lmb_mesh_index(m, corner);
     return *vertex < m->vertex_count;
 }
 
@@ -95,18 +95,18 @@ static void measure(mesh_job *j)
         j->high[k] = -1e30;
     }
     for (uint32_t i = 0; i < 3 * m->triangle_count; ++i) {
-        if (!is_corner(m, i, &v)) {
+        lmb_vertex own;
+        if (!is_corner(m, i, &v) || !lmb_mesh_vertex(&own, m, v)) {
             continue;
         }
-        const lmb_vec3 p = mesh_position(m, v);
+        const lmb_vec3 p = own.position;
         const double at[3] = {(double)p.x, (double)p.y, (double)p.z};
-        float uv[2];
+        const float *uv = own.uv;
         j->is_sane &= is_place(p);
         for (int k = 0; k < 3; ++k) {
             j->low[k] = at[k] < j->low[k] ? at[k] : j->low[k];
             j->high[k] = at[k] > j->high[k] ? at[k] : j->high[k];
         }
-        mesh_uv(m, v, uv);
         for (int k = 0; k < 2; ++k) {
             j->uv_format = fabs((double)uv[k]) < 1e6 ? j->uv_format : LMB_UV_F32;
             uv_low[k] = (double)uv[k] < uv_low[k] ? (double)uv[k] : uv_low[k];
@@ -197,7 +197,9 @@ static void set_grid(mesh_job *jobs, uint32_t count, double error_m)
 
 static void put_position(uint32_t *w, const mesh_job *j, uint32_t v, double *error_m)
 {
-    const lmb_vec3 p = mesh_position(j->mesh, v);
+    lmb_vertex own;
+    lmb_mesh_vertex(&own, j->mesh, v);
+    const lmb_vec3 p = own.position;
     const double at[3] = {(double)p.x, (double)p.y, (double)p.z};
     int16_t code[4] = {0, 0, 0, 0};
     float moved[3];
@@ -220,11 +222,12 @@ static void put_position(uint32_t *w, const mesh_job *j, uint32_t v, double *err
 
 static void put_uv(uint32_t *w, const mesh_job *j, uint32_t v, double *error)
 {
-    float uv[2];
+    lmb_vertex own;
     uint16_t code[2];
-    mesh_uv(j->mesh, v, uv);
+    lmb_mesh_vertex(&own, j->mesh, v);
+    const float *uv = own.uv;
     if (j->uv_format == LMB_UV_F32) {
-        memcpy(w, uv, sizeof uv);
+        memcpy(w, uv, sizeof own.uv);
         return;
     }
     for (int k = 0; k < 2; ++k) {

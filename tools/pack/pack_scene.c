@@ -4,8 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../src/base/poly.h"
-#include "../../src/base/records.h"
 
 void pack_free(pack *p)
 {
@@ -209,6 +207,7 @@ int pack_take(pack *out, const lmb_pack *from, const char *path, report *r)
                                      {LMB_PACK_MESHES, 8, 1, LMB_PACK_INDICES},
                                      {LMB_PACK_TEXTURES, 0, 1, LMB_PACK_TEXELS},
                                      {LMB_PACK_TRACKS, 2, 2, LMB_PACK_KEYS}};
+    static const uint8_t words_each[LMB_PACK_KINDS] = LMB_PACK_WORDS_EACH;
     int ok = 1;
     for (int kind = 1; kind < LMB_PACK_KINDS; ++kind) {
         if (from->part[kind] != NULL) {
@@ -217,7 +216,7 @@ int pack_take(pack *out, const lmb_pack *from, const char *path, report *r)
     }
     for (size_t i = 0; i < sizeof offsets / sizeof *offsets; ++i) {
         const int kind = offsets[i][0];
-        const size_t each = lmb_pack_words_each[kind];
+        const size_t each = words_each[kind];
         uint32_t *word = (uint32_t *)(void *)out->part[kind].data;
         for (uint32_t k = 0; !out->part[kind].is_short && k < from->count[kind]; ++k, word += each) {
             for (int w = 0; w < offsets[i][2]; ++w) {

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "../../platform/host/host.h"
-#include "../../src/base/records.h"
 #include "../common/option_value.h"
 #include "../common/options.h"
 #include "../demo/demo_scene.h"
@@ -94,7 +93,7 @@ static void say_vertices(const lmb_pack *p, double all)
     double positions = 0.0, normals = 0.0, tangents = 0.0, uvs = 0.0, colours = 0.0;
     for (uint32_t i = 0; i < p->count[LMB_PACK_MESHES]; ++i) {
         lmb_mesh m;
-        lmb_pack_take_mesh(&m, p, i);
+        pack_streams(&m, p, i);
         positions += (m.position_format == LMB_POSITION_I16 ? 8.0 : 12.0) * m.vertex_count;
         normals += m.normals != NULL ? 4.0 * m.vertex_count : 0.0;
         tangents += m.tangents != NULL ? 4.0 * m.vertex_count : 0.0;

@@ -4,9 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../src/raster/texture.h"
-#include "../../src/base/vertex.h"
-#include "../../src/raster/triangle.h"
 #include "../mesh/simplify.h"
 
 enum { FINE = 300 };          /* minimum triangles of a smooth mesh that is simplified */
@@ -105,10 +102,11 @@ static dvec normal_of(const lmb_triangle *t, int i)
     const dvec x = dvec_of((double)m[0], (double)m[1], (double)m[2]),
                y = dvec_of((double)m[4], (double)m[5], (double)m[6]),
                z = dvec_of((double)m[8], (double)m[9], (double)m[10]);
-    const lmb_vec3 own = mesh_normal(t->mesh, t->vertex[i]);
-    if (t->mesh->normals == NULL) {
+    lmb_vertex vertex;
+    if (t->mesh->normals == NULL || !lmb_mesh_vertex(&vertex, t->mesh, t->vertex[i])) {
         return dvec_of(0, 0, 0);
     }
+    const lmb_vec3 own = vertex.normal;
     return dvec_unit(
         dvec_add(dvec_add(dvec_mul(dvec_cross(y, z), (double)own.x), dvec_mul(dvec_cross(z, x), (double)own.y)),
                  dvec_mul(dvec_cross(x, y), (double)own.z)));
@@ -145,14 +143,13 @@ static int add_plain(vl_mesh *m, const lmb_instance *in, report *r)
         }
         own.material = t.material;
         for (int k = 0; k < 3; ++k) {
-            float uv[2], colour[4];
-            mesh_uv(t.mesh, t.vertex[k], uv);
-            mesh_colour(t.mesh, t.vertex[k], colour);
+            lmb_vertex v;
+            lmb_mesh_vertex(&v, t.mesh, t.vertex[k]);
             own.n[k] = normal_of(&t, k);
             for (int c = 0; c < 3; ++c) {
-                own.colour[k][c] = (double)colour[c];
+                own.colour[k][c] = (double)v.colour[c];
             }
-            own.uv[k][0] = (double)uv[0], own.uv[k][1] = (double)uv[1];
+            own.uv[k][0] = (double)v.uv[0], own.uv[k][1] = (double)v.uv[1];
             if (!add_place(&own.p[k], m, widened(t.corner[k]), r)) {
                 return 0;
             }
@@ -184,11 +181,11 @@ static int add_simplified(vl_mesh *m, const lmb_instance *in, uint32_t triangles
         }
         for (uint32_t k = 0; k < 3; ++k) {
             const uint32_t at = 3 * whole.triangle_count + k;
-            float colour[4];
+            lmb_vertex v;
             dvec_write(whole.positions + 3 * at, widened(t.corner[k]));
             dvec_write(whole.normals + 3 * at, normal_of(&t, (int)k));
-            mesh_colour(t.mesh, t.vertex[k], colour);
-            memcpy(whole.colours + 3 * at, colour, 3 * sizeof(float));
+            lmb_mesh_vertex(&v, t.mesh, t.vertex[k]);
+            memcpy(whole.colours + 3 * at, v.colour, 3 * sizeof(float));
             whole.indices[at] = at;
         }
         whole.triangle_count += 1;

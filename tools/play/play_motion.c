@@ -5,8 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../src/base/light_kind.h"
-#include "../../src/base/vec.h"
+#include "../common/fvec.h"
 #include "../model/model_shape.h"
 #include "../render/render_view.h"
 #include "play_space.h"
@@ -24,7 +23,7 @@ static const double two_pi = 6.283185307179586;
 
 /* --- room for the default motion ---------------------------------------------------------------------------------- */
 
-static int is_sun(const lmb_light *l) { return !light_kind_is(l->kind, LIGHT_PLACED); }
+static int is_sun(const lmb_light *l) { return l->kind != LMB_LIGHT_POINT && l->kind != LMB_LIGHT_SPOT; }
 
 static lmb_vec3 on_circle(lmb_vec3 middle, double radius, double turn)
 {

@@ -4,8 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../src/base/vec.h"
-#include "../../src/occlusion/traversal.h"
+#include "../common/fvec.h"
 
 int play_space_make(play_space *s, const lmb_scene *scene, const lmb_kernels *kernels, report *r)
 {
@@ -13,7 +12,8 @@ int play_space_make(play_space *s, const lmb_scene *scene, const lmb_kernels *ke
     const size_t bytes = lmb_bvh_bytes(triangles);
     memset(s, 0, sizeof *s);
     s->kernels = kernels;
-    traversal_bound(&s->traversal);
+    s->traversal.bounded = 1;
+    s->traversal.left = LMB_TRAVERSAL_FIRST;
     s->tile = calloc(1, sizeof *s->tile);
     s->memory = malloc(bytes > 0 ? bytes : 1);
     return (s->tile != NULL && s->memory != NULL && bytes > 0 &&

@@ -1,14 +1,14 @@
 /* relief_bake.c: bakes a complex scene and a simple model to a .lmr: draws and packs. [P10 P11] */
 #include "relief_bake.h"
 
+#include <lambent/numbers.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../src/base/codec.h"
-#include "../../src/base/vec.h"
 #include "../../platform/host/pool.h"
 #include "../common/checksum.h"
+#include "../common/fvec.h"
 #include "../common/progress.h"
 
 void relief_bake_free(relief_bake *bake)

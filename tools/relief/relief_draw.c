@@ -8,8 +8,8 @@
 #include "../../platform/host/host.h"
 #include "../../platform/host/pool.h"
 #include "../common/binned.h"
+#include "../common/fvec.h"
 #include "../common/progress.h"
-#include "../../src/base/vec.h"
 #include "relief_bounce.h"
 
 /* One kind of geometry, with the target for resolving pixels and the shadow map. */
@@ -87,7 +87,7 @@ static int32_t map_side(const work *w, const layer *l, const lmb_scene *bounds)
         texel = maxf(texel, v->perspective ? v->texel * v->near_m : v->texel);
     }
     const float wanted = texel > 0.0f ? ceilf(across / (8.0f * FINEST * texel)) * 8.0f : 1e9f;
-    return wanted < (float)w->shot->shadow_map ? maxi((int32_t)wanted, 8) : w->shot->shadow_map;
+    return wanted < (float)w->shot->shadow_map ? (int32_t)fmaxf(wanted, 8.0f) : w->shot->shadow_map;
 }
 
 /* Both maps are fitted to the bounds of everything. */

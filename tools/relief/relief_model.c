@@ -1,13 +1,12 @@
 /* relief_model.c: a scene flattened to one mesh in world space, as input for reliefs. */
 #include "relief_model.h"
 
+#include <lambent/lookup.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../src/base/vec.h"
-#include "../../src/base/vertex.h"
-#include "../../src/raster/texture.h"
+#include "../common/fvec.h"
 
 /* --- flattening --------------------------------------------------------------------------------------------------- */
 
@@ -37,19 +36,23 @@ static void put(float *at, lmb_vec3 v)
 
 static lmb_vec3 get(const float *at) { return vec3(at[0], at[1], at[2]); }
 
-/* Reflectance at a vertex: material x texture x vertex colour. */
-static void vertex_albedo(float out[3], const lmb_scene *scene, const lmb_instance *of, uint32_t v)
+static lmb_vec3 in_world(const lmb_mat4 *t, lmb_vec3 p)
 {
-    const lmb_mesh *mesh = &scene->meshes[of->mesh];
+    const float *m = t->m;
+    return vec3(m[0] * p.x + m[4] * p.y + m[8] * p.z + m[12], m[1] * p.x + m[5] * p.y + m[9] * p.z + m[13],
+                m[2] * p.x + m[6] * p.y + m[10] * p.z + m[14]);
+}
+
+/* Reflectance at a vertex: material x texture x vertex colour. */
+static void vertex_albedo(float out[3], const lmb_scene *scene, const lmb_instance *of, const lmb_vertex *v)
+{
     const lmb_material *material = &scene->materials[of->material];
-    float colour[4], uv[2], texel[4] = {1.0f, 1.0f, 1.0f, 1.0f};
-    mesh_colour(mesh, v, colour);
+    float texel[4] = {1.0f, 1.0f, 1.0f, 1.0f};
     if (material->texture >= 0) {
-        mesh_uv(mesh, v, uv);
-        lmb_texture_sample(texel, &scene->textures[material->texture], uv[0], uv[1], 0.0f);
+        lmb_texture_sample(texel, &scene->textures[material->texture], v->uv[0], v->uv[1], 0.0f);
     }
     for (int c = 0; c < 3; ++c) {
-        out[c] = material->albedo[c] * colour[c] * texel[c];
+        out[c] = material->albedo[c] * v->colour[c] * texel[c];
     }
 }
 
@@ -63,17 +66,19 @@ static void add_instance(triangle_mesh *out, uint32_t *vertex, uint32_t *triangl
     const lmb_vec3 cofactor[3] = {cross3(y, z), cross3(z, x), cross3(x, y)};
     for (uint32_t v = 0; v < mesh->vertex_count; ++v) {
         const size_t at = 3 * (size_t)(*vertex + v);
-        put(out->positions + at, transform_point(&of->to_world, mesh_position(mesh, v)));
-        vertex_albedo(out->colours + at, scene, of, v);
+        lmb_vertex own;
+        lmb_mesh_vertex(&own, mesh, v);
+        put(out->positions + at, in_world(&of->to_world, own.position));
+        vertex_albedo(out->colours + at, scene, of, &own);
         if (mesh->normals != NULL) {
-            const lmb_vec3 n = lmb_octahedral_decode(mesh->normals + 2 * (size_t)v);
+            const lmb_vec3 n = own.normal;
             put(out->normals + at, normalize3(mul3(add3(add3(mul3(cofactor[0], n.x), mul3(cofactor[1], n.y)),
                                                         mul3(cofactor[2], n.z)), side)));
         }
     }
     for (uint32_t t = 0; t < mesh->triangle_count; ++t) {
-        uint32_t corner[3];
-        mesh_triangle(mesh, t, corner);
+        const uint32_t corner[3] = {lmb_mesh_index(mesh, 3 * t), lmb_mesh_index(mesh, 3 * t + 1),
+                                    lmb_mesh_index(mesh, 3 * t + 2)};
         if (corner[0] < mesh->vertex_count && corner[1] < mesh->vertex_count && corner[2] < mesh->vertex_count) {
             uint32_t *to = out->indices + 3 * (size_t)(*triangle)++;
             to[0] = *vertex + corner[0];

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../src/base/vec.h"
+#include "../common/fvec.h"
 
 enum { MAX_CUBES = 1 << 24 };
 

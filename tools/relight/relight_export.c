@@ -8,7 +8,6 @@
 #include <lambent/relight.h>
 
 #include "../../platform/host/pool.h"
-#include "../../src/base/poly.h"
 #include "../common/frame_name.h"
 #include "../common/progress.h"
 #include "../common/text_buffer.h"

@@ -5,9 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../src/base/vertex.h"
-#include "../../src/raster/texture.h"
-
 #define PI 3.14159265f
 
 enum { ROUNDS = 3, FACES = 6, STEPS = 64 };
@@ -89,13 +86,10 @@ static void slice_part(uint8_t out[4 * FACES][STEPS], const hidden *h, const hid
 }
 
 /* Samples the texture at a triangle's middle, at a mip level with texels of about the triangle's size. */
-static void texel_of(float out[4], const lmb_texture *t, const lmb_mesh *m, const uint32_t vertex[3])
+static void texel_of(float out[4], const lmb_texture *t, const lmb_vertex vertex[3])
 {
     lmb_texture smooth = *t;
-    float uv[3][2];
-    for (int k = 0; k < 3; ++k) {
-        mesh_uv(m, vertex[k], uv[k]);
-    }
+    const float *const uv[3] = {vertex[0].uv, vertex[1].uv, vertex[2].uv};
     const float twice =
         fabsf((uv[1][0] - uv[0][0]) * (uv[2][1] - uv[0][1]) - (uv[2][0] - uv[0][0]) * (uv[1][1] - uv[0][1]));
     float texels = 0.5f * twice * (float)t->width * (float)t->height, level = 0.0f;
@@ -112,15 +106,17 @@ static void add_albedo(region *p, const lmb_scene *scene, const lmb_instance *in
                        const uint32_t vertex[3], float area)
 {
     const lmb_material *material = &scene->materials[in->material];
-    float colour[3][4], texel[4] = {1.0f, 1.0f, 1.0f, 1.0f};
+    float texel[4] = {1.0f, 1.0f, 1.0f, 1.0f};
+    lmb_vertex own[3];
     for (int k = 0; k < 3; ++k) {
-        mesh_colour(m, vertex[k], colour[k]);
+        lmb_mesh_vertex(&own[k], m, vertex[k]);
     }
     if (material->texture >= 0) {
-        texel_of(texel, &scene->textures[material->texture], m, vertex);
+        texel_of(texel, &scene->textures[material->texture], own);
     }
     for (int c = 0; c < 3; ++c) {
-        p->albedo[c] += area * material->albedo[c] * texel[c] * (colour[0][c] + colour[1][c] + colour[2][c]) / 3.0f;
+        p->albedo[c] += area * material->albedo[c] * texel[c] *
+                        (own[0].colour[c] + own[1].colour[c] + own[2].colour[c]) / 3.0f;
     }
 }
 

@@ -10,9 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../src/raster/plane.h"
-#include "../../src/raster/resolve.h"
-#include "../../src/raster/triangle.h"
+#include "../common/fvec.h"
 
 enum { MIN_LIST = 1 << 16, MAX_LIST = 1 << 26 }; /* layers of all pixels: 1 MiB, at most 1 GiB */
 
@@ -228,18 +226,9 @@ static int add_fragment(work *w, size_t pixel, uint32_t id, float depth, float a
 static int take_pixels(work *w, int32_t box[2][2], const lmb_triangle *t)
 {
     const lmb_view *v = &w->how.view;
-    lmb_resolve_alpha alpha;
-    lmb_rays rays;
-    lmb_plane plane;
     int ok = 1;
-    lmb_resolve_alpha_of(&alpha, t);
-    lmb_resolve_rays(&rays, v, box[0][0], box[1][0]);
-    lmb_resolve_plane(&plane, t->corner, &rays);
     for (int32_t y = box[1][0]; y < box[1][1] && y < v->frame_height; ++y) {
         for (int32_t x = box[0][0]; x < box[0][1] && x < v->frame_width && ok; ++x) {
-            if (x % LMB_TILE == 0) { /* rays of whole tiles, as for the pixel's other attributes */
-                lmb_resolve_rays(&rays, v, x, y / LMB_TILE * LMB_TILE);
-            }
             const size_t at = (size_t)(y - box[1][0]) * (size_t)w->wide + (size_t)(x - box[0][0]);
             const size_t pixel = (size_t)y * (size_t)w->wide + (size_t)x;
             const float depth = w->window_depth[at];
@@ -247,9 +236,7 @@ static int take_pixels(work *w, int32_t box[2][2], const lmb_triangle *t)
                 (depth == w->depth[pixel] && w->opaque[pixel] != 0 && w->opaque[pixel] < t->id)) {
                 continue;
             }
-            float b1, b2;
-            lmb_resolve_point(&b1, &b2, &plane, &rays, (float)(x % LMB_TILE), (float)(y % LMB_TILE));
-            const float a = lmb_resolve_alpha_at(&alpha, &w->solid, b1, b2);
+            const float a = lmb_triangle_alpha(v, &w->solid, t->id, x, y);
             ok = !(a > 0.0f) || add_fragment(w, pixel, t->id, depth, a < 1.0f ? a : 1.0f);
         }
     }
@@ -382,8 +369,8 @@ static float *light_at(const work *w, const place *p)
 
 static int is_unlit(const work *w, uint32_t id)
 {
-    const lmb_material *m = lmb_material_of(w->frame->scene, id);
-    return m != NULL && (m->flags & LMB_UNLIT) != 0;
+    lmb_triangle t;
+    return lmb_triangle_fetch(&t, w->frame->scene, id) && (t.material->flags & LMB_UNLIT) != 0;
 }
 
 /* Lights the opaque surfaces and the background of the marked pixels, into mixed. */

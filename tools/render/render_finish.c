@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "../../src/raster/triangle.h"
+#include "../common/fvec.h"
 #include "../picture/picture.h"
 #include "background.h"
 #include "unlit.h"
@@ -94,24 +94,17 @@ void render_tell_coarse(int is_quiet, const lmb_stats *stats)
     }
 }
 
-static int is_drawable(const lmb_scene *scene, const lmb_instance *instance, uint32_t id)
-{
-    lmb_triangle t;
-    return triangle_of(&t, scene, instance, id) && is_place(t.corner[0]) && is_place(t.corner[1]) &&
-           is_place(t.corner[2]);
-}
-
 void render_tell_dropped(int is_quiet, const lmb_scene *scene, const lmb_stats *stats)
 {
     uint32_t dropped = 0;
-    for (uint32_t i = 0; i < scene->instance_count && stats->triangles_dropped > 0; ++i) {
-        const lmb_instance *instance = &scene->instances[i];
-        for (uint32_t k = 0; k < scene->meshes[instance->mesh].triangle_count; ++k) {
-            dropped += !is_drawable(scene, instance, instance->first_id + k);
-        }
+    const uint32_t triangles = stats->triangles_dropped > 0 ? lmb_scene_triangles(scene) : 0;
+    for (uint32_t id = 1; id <= triangles; ++id) {
+        lmb_triangle t;
+        dropped += !lmb_triangle_fetch(&t, scene, id) || !is_place(t.corner[0]) || !is_place(t.corner[1]) ||
+                   !is_place(t.corner[2]);
     }
     if (dropped > 0) {
         report_note(is_quiet, "note: %u of %u triangles dropped: vertices not finite or over 2^20 m away",
-                    (unsigned)dropped, (unsigned)lmb_scene_triangles(scene));
+                    (unsigned)dropped, (unsigned)triangles);
     }
 }

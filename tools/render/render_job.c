@@ -13,8 +13,6 @@
 #include "../picture/picture.h"
 #include "own_light.h"
 #include "render_view.h"
-#include "../../src/raster/triangle.h"
-#include "../../src/transfer/halvings.h"
 
 #define HALF_STEP   0.00015f /* of black in 8 bits: radiance at exposure 0 */
 #define SKY_ERROR   0.01f   /* of a sky's light: error limit of a node */
@@ -89,7 +87,7 @@ static int keeps_direction(const lmb_transfer *t, uint32_t root)
 {
     const uint32_t *node = t->section[LMB_TRANSFER_DIVISIONS];
     while ((node[root] & LMB_TRANSFER_LEAF) == 0) {
-        root = halving_of(t, node[root]).first;
+        root = lmt_halving_of(t, root).first;
     }
     return (node[root] & ~LMB_TRANSFER_LEAF) >= t->leaves;
 }
@@ -101,7 +99,11 @@ static uint32_t without_direction(const render_job *j)
     uint32_t count = 0;
     for (uint32_t id = 1; id <= t->count[LMB_TRANSFER_SURFACES]; ++id) {
         const uint32_t *root = t->section[LMB_TRANSFER_SURFACES] + LMB_TRANSFER_SURFACE_WORDS * (size_t)(id - 1) + 2;
-        const lmb_material *m = &j->scene.materials[lmb_instance_of(&j->scene, id)->material];
+        lmb_triangle own;
+        if (!lmb_triangle_fetch(&own, &j->scene, id)) {
+            continue;
+        }
+        const lmb_material *m = own.material;
         const int takes_direction =
             m->normal_scale != 0.0f || m->specular[0] > 0.0f || m->specular[1] > 0.0f || m->specular[2] > 0.0f;
         count += takes_direction && ((root[0] != LMB_TRANSFER_NONE && !keeps_direction(t, root[0])) ||

@@ -5,9 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../src/base/poly.h"
-#include "../../src/probe/cube.h"
-#include "../../src/raster/triangle.h"
+#include "../common/fvec.h"
 #include "../picture/world_read.h"
 
 enum { SKY_SIDE = 64, MAX_SIDE = 512, LIGHT_SIDE = 32 /* lights per side of a cube face */ };
@@ -79,10 +77,22 @@ static void mean_of(float rgb[3], const float *face, int32_t side, int32_t x, in
     }
 }
 
+/* -1 .. 1: centre of texel i of n. */
+static float centre_of(int32_t i, int32_t n) { return (float)(2 * i + 1 - n) / (float)n; }
+
+/* Unit vector to texel (x, y) of a face of n x n, in GL order. */
+static lmb_vec3 texel_direction(int32_t face, int32_t x, int32_t y, int32_t n)
+{
+    const float s = centre_of(x, n), t = centre_of(y, n), side = face % 2 == 0 ? 1.0f : -1.0f;
+    return normalize3(face < 2   ? vec3(side, -t, -side * s)
+                      : face < 4 ? vec3(s, side, side * t)
+                                 : vec3(side * s, -t, side));
+}
+
 /* Solid angle, sr. */
 static float texel_angle(int32_t x, int32_t y, int32_t n)
 {
-    const float s = cube_coordinate(x, n), t = cube_coordinate(y, n), d2 = 1.0f + s * s + t * t;
+    const float s = centre_of(x, n), t = centre_of(y, n), d2 = 1.0f + s * s + t * t;
     return 4.0f / ((float)n * (float)n * d2 * sqrtf(d2));
 }
 
@@ -138,7 +148,7 @@ static void put_faces(world *w, lmb_light *clipped, const lmb_world_pictures *p)
         if (p->face[face] != NULL) {
             float rgb[3];
             mean_of(rgb, p->face[face], p->face_size, x, y, n);
-            add_clipped(clipped, rgb, cube_direction(face, x, y, n), texel_angle(x, y, n));
+            add_clipped(clipped, rgb, texel_direction(face, x, y, n), texel_angle(x, y, n));
             lmb_env_set(&w->env, face, x, y, rgb);
         }
     }

@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../src/raster/triangle.h"
 #include "../picture/picture.h"
 
 #define NOTHING 1e-4f /* below this share, light is rounding error */
@@ -45,9 +44,10 @@ static void add_tile(float *to, const render_job *j, const lmb_frame *f, const l
     }
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         const int32_t px = x + k % LMB_TILE, py = y + k / LMB_TILE;
-        const lmb_material *m = px < view->frame_width && py < view->frame_height && tile->id[k] != 0
-                                    ? lmb_material_of(&j->scene, tile->id[k])
-                                    : NULL;
+        lmb_triangle shown;
+        const int is_shown = px < view->frame_width && py < view->frame_height && tile->id[k] != 0 &&
+                             lmb_triangle_fetch(&shown, &j->scene, tile->id[k]);
+        const lmb_material *m = is_shown ? shown.material : NULL;
         for (int c = 0; c < 3 && m != NULL && (m->flags & LMB_UNLIT) != 0; ++c) {
             to[3 * ((size_t)py * (size_t)j->linear.width + (size_t)(x0 + px)) + (size_t)c] +=
                 tile->albedo[c][k] / (float)f->samples;
