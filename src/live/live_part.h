@@ -17,6 +17,12 @@ uint64_t lmb_live_blocked(const lmb_kernels *kernels, lmb_live_scratch *scratch,
 /* Adds refined nodes to the cut for the near leaves in scratch->leaf. Returns 1 if it added any. */
 int lmb_live_come_near(lmb_live_scratch *scratch, const lmb_kernels *kernels, const lmb_live *live);
 
+enum { LIVE_SKY_PACKETS = 8 }; /* max packets of segments towards a sky */
+
+/* Adds the light of a sky, and sets scratch->sky_whole and sky_seen. at: the receiver as it is lit. */
+void lmb_live_add_sky(float light[3], const lmb_kernels *kernels, lmb_live_scratch *scratch, const lmb_live_sky *sky,
+                      const lmb_bvh *bvh, const struct lmb_live_job *job, const lmb_live_receiver *at);
+
 /* A triangle in a map, with a unit normal on the lit side, and the vectors that give barycentrics. */
 typedef struct live_plane {
     uint32_t id;
