@@ -11,7 +11,7 @@
  * noise, and only shadows are sampled.
  *
  * The tree is built over cells of the world: first points of all lights that share a cell and a plane are one node, in
- * which shared area counts once. If a node is near, the parts are used: down to
+ * which shared area counts once. Crowded cells are divided further. If a node is near, the parts are used: down to
  * first points, then to texels of the map, then to parts of a texel, until their spacing is a quarter of their
  * distance.
  *

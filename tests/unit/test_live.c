@@ -130,12 +130,13 @@ static double sum_of_all(const lmb_live_receiver *at, int channel, int shadows)
     return sum;
 }
 
-/* Returns whether a first point is so near that parts of it count. */
+/* Returns whether a first point is so near that parts of it count. Blocks of the wide world are as large as a room,
+ * and dark. */
 static int is_near(const lmb_live_receiver *at)
 {
     for (uint32_t i = 0; i < live.points; ++i) {
         const lmb_vec3 d = sub3(live.sorted[i].position, at->position);
-        if (dot3(d, d) < 16.0f * live.sorted[i].area && live.sorted[i].id != at->id) {
+        if (dot3(d, d) < 16.0f * live.sorted[i].area && live.sorted[i].id != at->id && live.sorted[i].area < 1.0f) {
             return 1;
         }
     }
@@ -645,6 +646,35 @@ static void sky_refusals(void)
     CHECK(lmb_many_lights_sky(&few, &stream, scene) == LMB_ERR_ARG); /* not built */
 }
 
+/* A room on a ground of 4 km: all its first points lie in one cell of the world. */
+static void in_a_wide_world(void)
+{
+    const lmb_vec3 eye = vec3(-0.7f, 1.5f, -0.7f);
+    lmb_light lights[2] = {point_light(vec3(-0.6f, 1.6f, 0.2f)), sun(vec3(0.6f, -0.8f, 0))};
+    test_rng r = {59};
+    for (int c = 0; c < 3; ++c) {
+        lights[1].intensity[c] = 1e-6f;
+    }
+    room_with_table();
+    world_quad(vec3(0, -1, 0), mul3(Z, 2000), mul3(X, 2000));
+    light_world(lights, 2);
+    const uint32_t inside = world.count - 2;
+    double off = 0.0, mean = 0.0;
+    for (int i = 0; i < 200; ++i) {
+        lmb_live_receiver at = place_on(test_random(&r) % inside, eye, &r);
+        float light[3];
+        if (!is_near(&at)) {
+            receive(light, picked_kernels(), &at, 0);
+            const double want = sum_of_all(&at, 0, 0);
+            off += ((double)light[0] - want) * ((double)light[0] - want);
+            mean += want;
+        }
+    }
+    CHECK_MSG(sqrt(off * 200) < 0.02 * mean, "rms %.4f", sqrt(off * 200) / mean);
+    live.chunk_cap = live.chunks / 2; /* no memory to sort in */
+    CHECK(lmb_live_build(&live, &world.scene) == LMB_OK && live.chunks <= live.chunk_cap);
+}
+
 /* Too few chunks: coarser nodes, the same light. */
 static void few_chunks(void)
 {
@@ -767,6 +797,7 @@ void test_live(void)
     under_a_sky();
     same_sky_bytes();
     sky_refusals();
+    in_a_wide_world();
     few_chunks();
     many_planes();
     parts_fit();
