@@ -219,8 +219,8 @@ const option_row render_bounce_rows[] = {
                   "and light are continuous; pixels without such neighbours are gathered too. adaptive: every "
                   "eighth pixel, and denser if the light needs it, or for a smaller --error. live: like adaptive, "
                   "with 64 segments each (draft: 32): the fastest, for moving light. Default: full; half with many "
-                  "lights; adaptive under a sky; live if --quality draft, or `play` except with best, draws "
-                  "65,536 pixels or more, unless you give --error, --visibility, --tree or a budget")},
+                  "lights; live if --quality draft, or `play` except with best, draws 65,536 pixels or more, unless "
+                  "you give --error, --visibility, --tree or a budget; otherwise adaptive under a sky")},
     {.kind = OPTION_END},
 };
 
