@@ -11,8 +11,9 @@
  * noise, and only shadows are sampled.
  *
  * The tree is built over cells of the world: first points of all lights that share a cell and a plane are one node, in
- * which shared area counts once. If a node is near, the parts are used: down to first points, then to texels of the
- * map, then to parts of a texel, until their spacing is a quarter of their distance.
+ * which shared area counts once. Crowded cells are divided further. If a node is near, the parts are used: down to
+ * first points, then to texels of the map, then to parts of a texel, until their spacing is a quarter of their
+ * distance.
  *
  * A point's light depends only on that point, the scene and the maps: not on other points, order, threads or lanes.
  *
@@ -22,6 +23,9 @@
  *
  * Elements (lambent/elements.h) can be points of the tree too. Elements that do not emit are divided at half the
  * distance.
+ *
+ * Lights at infinity (lmb_many_lights_sky) have a tree of their own, so they are sampled by segments of their own, and
+ * the light of a bright sky does not make the shadows of bounced light noisy.
  *
  * Missing in builds without trees, and with LMB_LIVE 0. Stability: experimental. */
 #ifndef LMB_LIVE_H
@@ -38,6 +42,7 @@
 #define LMB_LIVE_STRATA 64   /* maximum number of segments of a point */
 #define LMB_LIVE_STACK  256  /* BVH nodes on the stack */
 #define LMB_LIVE_LAST   4    /* triangles that blocked many segments recently */
+#define LMB_LIVE_SKY    64   /* maximum number of chunks of a sky */
 
 /* A first point: the surface at one texel of a block of the map, picked by a hash, or of 2 x 2 blocks amid 4 x 4
  * that show one triangle, or of a quarter of a block that is not flat. 60 bytes. */
@@ -84,6 +89,29 @@ typedef struct lmb_live_chunk {
 } lmb_live_chunk;
 #define LMB_LIVE_LEAF 0x80000000u /* in `count` */
 
+/* A light at infinity. 16 bytes. */
+typedef struct lmb_live_sun {
+    lmb_vec3 toward; /* unit */
+    float upto;      /* W/m2: power of the node's suns up to this one, included */
+} lmb_live_sun;
+
+/* Sixteen parts of a sky side by side. 576 bytes. A node's suns are first .. first + count - 1. */
+typedef struct lmb_live_suns {
+    float toward[3][LMB_LIVE_NODES]; /* mean of the directions by power, so not longer than 1 */
+    float power[LMB_LIVE_NODES];     /* W/m2, mean of R, G, B; 0: nothing */
+    float colour[3][LMB_LIVE_NODES]; /* W/m2 by power */
+    uint32_t first[LMB_LIVE_NODES], count[LMB_LIVE_NODES];
+} lmb_live_suns;
+
+/* Lights at infinity, in your memory. */
+typedef struct lmb_live_sky {
+    lmb_live_suns *chunk; /* LMB_LIVE_SKY of them */
+    lmb_live_sun *sun;
+    uint32_t sun_cap, chunks;
+    int32_t strata; /* 1 .. LMB_LIVE_STRATA: segments of a packet; default 64 */
+    float reach;    /* m: length of a segment, which ends outside the scene */
+} lmb_live_sky;
+
 /* The tree, in your memory. */
 typedef struct lmb_live {
     const lmb_scene *scene; /* the scene that it was built from */
@@ -91,6 +119,7 @@ typedef struct lmb_live {
     lmb_live_point *point;  /* face_cap x side x side: a fixed slot for each block; then up to 64 of other quarters for
                                each 8 x 8 blocks; then element_cap of elements */
     const struct lmb_element *element; /* shapes of the element points */
+    const lmb_live_sky *sky; /* adds its light; NULL: none */
     lmb_live_point *sorted; /* the lit ones, in the order of the cells */
     lmb_live_chunk *chunk;  /* first the chunks of the top level */
     uint32_t face_cap, faces, chunk_cap, chunks, top; /* top: nodes of the top level */
@@ -110,6 +139,7 @@ typedef struct lmb_live_receiver {
     float noise;  /* m: largest distance from the surface that rounding may cause: lmb_place_noise */
     lmb_vec3 to_eye; /* towards the viewer, any length: decides the side of a plane that the point lies in; 0: no
                         viewer */
+    float turn; /* 0 .. 1: shifts the segments towards a sky. Let neighbours differ, and average their shares */
 } lmb_live_receiver;
 
 /* A point's segments. */
@@ -134,7 +164,7 @@ typedef struct lmb_live_branch {
 } lmb_live_branch;
 
 /* Scratch, one a thread: 403 KiB. The contents are undefined between calls, except `full`, `segments` and `pairs`,
- * which are added to until you zero them, and `whole` and `seen`, which are those of the last point. */
+ * which are added to until you zero them, and `whole`, `seen`, `sky_...`, which are those of the last point. */
 typedef struct lmb_live_scratch {
     lmb_live_chunk near[LMB_LIVE_KEPT + LMB_LIVE_NEAR]; /* kept ones first */
     float value[LMB_LIVE_CUT][LMB_LIVE_NODES]; /* unoccluded light of each node; 0 if the parts are used */
@@ -162,8 +192,8 @@ typedef struct lmb_live_scratch {
     lmb_target window; /* used by src/frame */
     uint32_t full;     /* points whose cut was full: nodes near them were used whole */
     uint64_t segments, pairs;
-    float whole[3]; /* the unoccluded light */
-    float seen[3]; /* visible share of each channel; -1: there is no light to shadow */
+    float whole[3], sky_whole[3]; /* the unoccluded light of the tree, and of the sky */
+    float seen[3], sky_seen[3]; /* visible share of each channel; -1: there is no light to shadow */
 } lmb_live_scratch;
 
 #ifdef __cplusplus
@@ -180,6 +210,12 @@ int32_t lmb_live_side(uint32_t faces, int32_t size);
  * LMB_ERR_CAPACITY. */
 size_t lmb_live_bytes(uint32_t faces, int32_t side, uint32_t elements);
 lmb_status lmb_live_init(lmb_live *out, uint32_t faces, int32_t side, uint32_t elements, void *memory, size_t bytes);
+
+/* lmb_live_sky_bytes: memory for a sky of 1 .. 2^22 suns; 0 for another number. 16 bytes a sun, and 36 KiB.
+ * lmb_live_sky_init: lay out an empty sky in it, aligned as for a uint64_t; lmb_many_lights_sky (many_lights.h) fills
+ * it. Then set lmb_live.sky. Returns LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN or LMB_ERR_CAPACITY. */
+size_t lmb_live_sky_bytes(uint32_t suns);
+lmb_status lmb_live_sky_init(lmb_live_sky *out, uint32_t suns, void *memory, size_t bytes);
 
 /* lmb_live_collect: collect first points of one face, as face `into` of the tree: those of the rows of 8 blocks that
  * begin in the map's tile rows first .. past - 1. Rows may be collected in any order, on any threads. All light through

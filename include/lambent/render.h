@@ -130,6 +130,7 @@ typedef struct lmb_frame {
     lmb_elements elements; /* for bounces > 1, bounced many_lights, and emissive materials; data NULL: none of these */
     lmb_lattice lattice; /* LMB_GATHER_ADAPTIVE and _LIVE: of the view's size; tile NULL: none */
     lmb_live *live; /* LMB_GATHER_LIVE, with LMB_GROUP_CUT: for all faces of the maps and all elements; NULL: none */
+    lmb_live_sky *live_sky; /* for many_lights that are only suns; NULL: none */
     lmb_target eye;     /* depth and ids of the whole frame; if memory is short, of a strip of some bands of 8 rows: the
                            scene is drawn again for each strip */
     lmb_surface eye_depth; /* with a strip as `eye` and VIEW occlusion: depth of the whole frame (16 bit will do) */

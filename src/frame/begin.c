@@ -151,6 +151,9 @@ lmb_status lmb_render_again(lmb_render *r, const lmb_frame *frame)
     }
     if (status == LMB_OK) {
         r->frame = f;
+        if (requires_live(&f)) {
+            f.live->sky = gathers_live_sky(&f) ? f.live_sky : NULL;
+        }
         r->reuses &= ~(uint32_t)LMB_REUSE_VIEW;
         r->stage = LMB_STAGE_VIEW;
         r->light = r->face = r->progress = 0;

@@ -34,7 +34,7 @@ lmb_status lmb_render_gather(lmb_irradiance *inout, lmb_glossy *glossy, const lm
     if (skips(r, LMB_SKIP_BOUNCE)) {
         return LMB_OK;
     }
-    if (gathers_many_lights(f)) {
+    if (gathers_many_lights(f) && (glossy != NULL || !gathers_live_sky(f))) {
         const lmb_status status = gather_many_lights(inout, r, s, tile);
         if (status != LMB_OK) {
             return status;

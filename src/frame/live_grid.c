@@ -13,7 +13,6 @@
 #define STRAY     1.6f  /* max standard deviations between two shares that count as equal */
 #define EDGE      1.0f  /* error, as a share of the light's change over a cell with several surfaces */
 #define LEAST     0.02f /* min of p (1 - p): shares of 0 and 1 are uncertain too */
-#define WHOLE     254.0f /* full value of `seen` */
 #define SPLIT     800.0f /* over strata^2: sampling errors of shadows should not cause divisions */
 
 typedef char grid_fits_lattice[sizeof(live_grid_tile) + GRID_SAMPLES * sizeof(lmb_live_sample) <=
@@ -268,16 +267,24 @@ static void set_cell(cell *out, const live_grid *g, int32_t x, int32_t y, int32_
 
 static float all_of(const float light[3]) { return light[0] + light[1] + light[2]; }
 
-static float share_of(const lmb_live_sample *s)
+/* Share of bounced light (kind 0) or of a sky (1) that is seen. */
+static float share_of(const lmb_live_sample *s, int kind)
 {
-    return (float)(s->seen[0] + s->seen[1] + s->seen[2]) / (3.0f * WHOLE);
+    const float full = kind == 0 ? LIVE_STEPS : LIVE_SKY_STEPS;
+    return (float)(s->seen[kind][0] + s->seen[kind][1] + s->seen[kind][2]) / (3.0f * full);
 }
 
-/* Half the standard deviation of a sample's light, R + G + B, for a share from a single segment. */
+/* Half the standard deviation of a sample's light, R + G + B, for shares from a single segment. */
 static float spread_of(const lmb_live_sample *s)
 {
-    const float share = share_of(s);
-    return s->is_lit && share > 0.0f && share < 1.0f ? 0.5f * all_of(s->light) * sqrtf((1.0f - share) / share) : 0.0f;
+    const float share = share_of(s, 0), sky = share_of(s, 1);
+    if (s->is_lit[1]) {
+        const float a = s->is_lit[0] ? share * (1.0f - share) * all_of(s->slope[0]) * all_of(s->slope[0]) : 0.0f;
+        const float b = sky * (1.0f - sky) * all_of(s->slope[1]) * all_of(s->slope[1]);
+        return 0.5f * sqrtf(a + b);
+    }
+    const int some = s->is_lit[0] && share > 0.0f && share < 1.0f;
+    return some ? 0.5f * all_of(s->light) * sqrtf((1.0f - share) / share) : 0.0f;
 }
 
 /* Prediction error of a cell's corners and slopes at a sample: R + G + B, beyond the sample's noise. */
@@ -457,28 +464,25 @@ static int32_t own_step(const live_grid *g, int32_t x, int32_t y)
     return step;
 }
 
-static void add_share(float sum[4], const lmb_live_sample *from, float weight)
+static void add_share(float sum[4], const lmb_live_sample *from, int kind, float weight)
 {
     for (int c = 0; c < 3; ++c) {
-        sum[c] += weight * (float)from->seen[c];
+        sum[c] += weight * (float)from->seen[kind][c];
     }
     sum[3] += weight;
 }
 
-/* Replaces the sample's share by the mean of surrounding samples of the same step, on the same surface and within the
- * noise. Fields that other threads may read meanwhile stay unchanged. */
-static void smooth(const live_grid *g, int32_t x, int32_t y)
+/* Mean share of surrounding samples of the same step, on the same surface and within the noise: three sums and their
+ * weight. Fields that other threads may read meanwhile stay unchanged. */
+static void set_shares(float sum[4], const live_grid *g, int32_t x, int32_t y, int kind)
 {
-    lmb_live_sample *own = sample_at(g, x, y);
+    const lmb_live_sample *own = sample_at(g, x, y);
     const int32_t step = own_step(g, x, y);
     const int32_t column[3] = {before(x, step), x, after(x, step, g->width)};
     const int32_t row[3] = {before(y, step), y, after(y, step, g->height)};
-    const float share = share_of(own), max = STRAY * g->noise * sqrtf(maxf(share * (1.0f - share), LEAST));
-    float sum[4] = {0, 0, 0, 0};
-    if (!own->is_lit) {
-        return;
-    }
-    add_share(sum, own, 1.0f);
+    const float share = share_of(own, kind), max = STRAY * g->noise * sqrtf(maxf(share * (1.0f - share), LEAST));
+    sum[0] = sum[1] = sum[2] = sum[3] = 0.0f;
+    add_share(sum, own, kind, 1.0f);
     for (int i = 0; i < 9; ++i) {
         int32_t at = column[i % 3], down = row[i / 3];
         if (step == LMB_TILE && i != 4 && at >= 0 && down >= 0 && !is_known(g, at, down)) {
@@ -489,13 +493,30 @@ static void smooth(const live_grid *g, int32_t x, int32_t y)
             continue;
         }
         const lmb_live_sample *s = sample_at(g, at, down);
-        const float off = absf(share_of(s) - share);
-        if (s->is_lit && off <= max && live_agree(own, s) > 0.0f) {
-            add_share(sum, s, (i % 2 == 0 ? 0.5f : 0.75f) * (1.0f - 0.5f * off / max));
+        const float off = absf(share_of(s, kind) - share);
+        if (s->is_lit[kind] && off <= max && live_agree(own, s) > 0.0f) {
+            add_share(sum, s, kind, (i % 2 == 0 ? 0.5f : 0.75f) * (1.0f - 0.5f * off / max));
         }
     }
-    for (int c = 0; c < 3; ++c) {
-        own->light[c] = own->slope[0][c] * (sum[c] / (sum[3] * WHOLE));
+}
+
+/* Replaces the sample's shares by means. */
+static void smooth(const live_grid *g, int32_t x, int32_t y)
+{
+    lmb_live_sample *own = sample_at(g, x, y);
+    float sum[4];
+    if (own->is_lit[0]) {
+        set_shares(sum, g, x, y, 0);
+        for (int c = 0; c < 3; ++c) {
+            own->light[c] = own->slope[0][c] * (sum[c] / (sum[3] * LIVE_STEPS));
+        }
+    }
+    if (own->is_lit[1]) {
+        set_shares(sum, g, x, y, 1);
+        for (int c = 0; c < 3; ++c) {
+            const float light = own->slope[1][c] * (sum[c] / (sum[3] * LIVE_SKY_STEPS));
+            own->light[c] = own->is_lit[0] ? own->light[c] + light : light;
+        }
     }
 }
 

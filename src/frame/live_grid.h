@@ -71,6 +71,13 @@ void lmb_live_grid_slopes(const live_grid *g, int32_t column, int32_t row);
 /* Lights a tile's pixels between the samples. Returns the mask of pixels that no sample explains. */
 uint64_t lmb_live_grid_fill(lmb_irradiance *out, const lmb_kernels *kernels, const live_grid *g, const lmb_tile *tile);
 
+/* The shift of the segments towards a sky, 0 .. 1: samples beside each other differ. On grids of 1, 2 and 4 steps any
+ * 3 x 3 samples have all nine shifts. */
+static inline float live_turn(int32_t column, int32_t row)
+{
+    return ((float)(column % 3 * 3 + row % 3) + 0.5f) * (1.0f / 9.0f);
+}
+
 /* 0 .. 1: how well two samples agree in their surface. On a smooth surface the height over the other sample's plane
  * grows with the angle between the normals. */
 static inline float live_agree(const lmb_live_sample *a, const lmb_live_sample *b)

@@ -35,26 +35,29 @@ static live_grid grid_of(const lmb_render *r) { return lmb_live_grid_of(&r->fram
 
 /* --- samples ------------------------------------------------------------------------------------------------------ */
 
-static lmb_live_receiver receiver_of(const lmb_render *r, const lmb_live_sample *s)
+/* x, y: the sample's pixel. */
+static lmb_live_receiver receiver_of(const lmb_render *r, const lmb_live_sample *s, int32_t x, int32_t y)
 {
     const lmb_view *v = &r->frame.view;
     const lmb_vec3 at = s->position;
     const lmb_live_receiver receiver = {at, s->face, s->normal, s->id,
                                         lmb_place_noise(at, absf(dot3(v->back, sub3(at, v->eye)))),
-                                        view_to_eye(v, at)};
+                                        view_to_eye(v, at), live_turn(x / GRID_STEP, y / GRID_STEP)};
     return receiver;
 }
 
-static lmb_status light_sample(const lmb_render *r, lmb_band_scratch *s, lmb_live_sample *inout)
+static lmb_status light_sample(const lmb_render *r, lmb_band_scratch *s, lmb_live_sample *inout, int k)
 {
-    const lmb_live_receiver receiver = receiver_of(r, inout);
+    const lmb_live_receiver receiver =
+        receiver_of(r, inout, s->tile.x + k % LMB_TILE, s->tile.y + k / LMB_TILE);
     const lmb_status status = lmb_render_live(inout->light, r, s, &receiver);
-    inout->is_lit = 0;
-    for (int c = 0; c < 3 && status == LMB_OK; ++c) {
-        const float seen = s->live->seen[c];
-        inout->is_lit |= (uint8_t)(seen >= 0.0f);
-        inout->seen[c] = (uint8_t)(clampf(seen, 0.0f, 1.0f) * 254.0f + 0.5f);
-        inout->slope[0][c] = s->live->whole[c];
+    for (int i = 0; i < 2 && status == LMB_OK; ++i) {
+        const float *seen = i == 0 ? s->live->seen : s->live->sky_seen, steps = i == 0 ? LIVE_STEPS : LIVE_SKY_STEPS;
+        memcpy(inout->slope[i], i == 0 ? s->live->whole : s->live->sky_whole, sizeof inout->slope[i]);
+        inout->is_lit[i] = (uint8_t)(seen[0] >= 0.0f);
+        for (int c = 0; c < 3; ++c) {
+            inout->seen[i][c] = (uint16_t)(clampf(seen[c], 0.0f, 1.0f) * steps + 0.5f);
+        }
     }
     return status;
 }
@@ -71,7 +74,7 @@ NOINLINE lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s, const l
             *sample = lmb_live_grid_surface(tile, grid_pixel(k));
         }
         sample->position = lmb_place_onto_triangle(r->frame.scene, sample->id, sample->position);
-        status = light_sample(r, s, sample);
+        status = light_sample(r, s, sample, grid_pixel(k));
     }
     t->known |= (uint16_t)asked;
     return status;
@@ -265,7 +268,7 @@ static lmb_status light_left(lmb_irradiance *inout, const lmb_render *r, lmb_ban
         if (!(around_of(&from, k).sum > 0.0f)) {
             lmb_live_sample own = lmb_live_grid_surface(from.tile, k);
             own.position = lmb_place_onto_triangle(r->frame.scene, own.id, own.position);
-            status = light_sample(r, s, &own);
+            status = light_sample(r, s, &own, k);
             for (int c = 0; c < 3; ++c) {
                 inout->rgb[c][k] = own.light[c];
             }

@@ -111,6 +111,16 @@ static inline int gathers_many_lights(const lmb_frame *f)
     return LMB_TREES && f->many_lights != NULL && f->gather_many_lights != 0 && f->show != LMB_SHOW_DIRECT;
 }
 
+/* Do many lights have only suns, and does the tree of single points have room for them? */
+static inline int has_live_sky(const lmb_frame *f)
+{
+    return requires_live(f) && f->live_sky != NULL && f->many_lights != NULL && f->many_lights->node_count > 0 &&
+           f->many_lights->node[0].kind == LMB_LIGHT_DIRECTIONAL && f->many_lights->cell_count <= f->live_sky->sun_cap;
+}
+
+/* Does the gather light single points by many lights? */
+static inline int gathers_live_sky(const lmb_frame *f) { return gathers_many_lights(f) && has_live_sky(f); }
+
 /* Does light also come from elements? */
 static inline int requires_elements(const lmb_render *r)
 {
@@ -122,7 +132,8 @@ static inline int requires_elements(const lmb_render *r)
 /* Does all bounced light come from single points? Their tree contains the elements. */
 static inline int lights_points(const lmb_render *r)
 {
-    return requires_samples(r) && requires_live(&r->frame) && !gathers_many_lights(&r->frame);
+    return requires_samples(r) && requires_live(&r->frame) &&
+           (!gathers_many_lights(&r->frame) || gathers_live_sky(&r->frame));
 }
 
 /* Do lobes contribute? */

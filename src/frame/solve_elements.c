@@ -36,8 +36,10 @@ static lmb_status receive_bounce(const lmb_render *r, const frame_solver *own, l
 {
     const lmb_frame *f = &r->frame;
     const int is_direct = r->light < (uint32_t)sends_direct(r);
-    const lmb_status status = is_direct && !r->emits ? LMB_OK : own->receive(r, s, first, past, stats);
-    if (status != LMB_OK || !is_direct || !requires_many_lights_bounce(f)) {
+    const int by_points = has_live_sky(f); /* own->receive adds the light of many lights */
+    const lmb_status status =
+        is_direct && !r->emits && !by_points ? LMB_OK : own->receive(r, s, first, past, stats);
+    if (status != LMB_OK || !is_direct || by_points || !requires_many_lights_bounce(f)) {
         return status;
     }
     const lmb_many_lights_query query = elements_query(f, stats);

@@ -7,11 +7,18 @@
 #include "../live/live_part.h"
 #include "../raster/tile.h"
 #include "../raster/triangle.h"
+#include "live_grid.h"
 #include "requires.h"
 #include "solver.h"
 #include "stages.h"
 
 #if LMB_LIVE
+
+/* Lights of a sky, if there are no other many lights. */
+static uint32_t suns_of(const lmb_many_lights *m)
+{
+    return m != NULL && m->node_count > 0 && m->node[0].kind == LMB_LIGHT_DIRECTIONAL ? m->cell_count : 0;
+}
 
 /* Places the tree of single points, and a scratch for each thread. */
 static lmb_status live_place(lmb_frame *f, const lmb_frame_settings *s, frame_block *b)
@@ -20,11 +27,17 @@ static lmb_status live_place(lmb_frame *f, const lmb_frame_settings *s, frame_bl
     const uint32_t lit = lmb_frame_map_faces(f->scene), faces = lit > 0 ? lit : 1;
     const int32_t side = lmb_live_side(faces, f->shadow_map), threads = s->threads > 1 ? s->threads : 1;
     const size_t bytes = lmb_live_bytes(faces, side, f->elements.cap);
+    const uint32_t suns = suns_of(f->many_lights);
+    void *sky_memory = NULL;
     if (placed != LMB_OK) {
         return placed;
     }
     f->live = (lmb_live *)lmb_frame_take(b, sizeof *f->live);
     void *memory = lmb_frame_take(b, bytes);
+    if (suns > 0) {
+        f->live_sky = (lmb_live_sky *)lmb_frame_take(b, sizeof *f->live_sky);
+        sky_memory = lmb_frame_take(b, lmb_live_sky_bytes(suns));
+    }
     lmb_live_scratch *scratch = (lmb_live_scratch *)lmb_frame_take(b, sizeof *scratch * (uint64_t)threads);
     if (bytes == 0 || is_only_measured(b)) {
         return bytes == 0 ? LMB_ERR_ARG : LMB_OK;
@@ -33,9 +46,15 @@ static lmb_status live_place(lmb_frame *f, const lmb_frame_settings *s, frame_bl
         memset(&scratch[i], 0, sizeof *scratch);
         f->scratch[i].live = &scratch[i];
     }
-    const lmb_status status = lmb_live_init(f->live, faces, side, f->elements.cap, memory, bytes);
+    lmb_status status = lmb_live_init(f->live, faces, side, f->elements.cap, memory, bytes);
+    if (status == LMB_OK && suns > 0) {
+        status = lmb_live_sky_init(f->live_sky, suns, sky_memory, lmb_live_sky_bytes(suns));
+    }
     const int few = s->quality == LMB_QUALITY_DRAFT && !lmb_scene_emits(f->scene); /* emitters are the brightest */
     f->live->strata = few ? LMB_LIVE_STRATA / 2 : LMB_LIVE_STRATA;
+    if (suns > 0) {
+        f->live_sky->strata = few ? LMB_LIVE_STRATA / 2 : LMB_LIVE_STRATA;
+    }
     f->live->split = s->quality == LMB_QUALITY_DRAFT ? 8.0f : 16.0f;
     return status;
 }
@@ -61,6 +80,10 @@ static lmb_status build_points(lmb_render *r)
     lmb_status status = LMB_OK;
     f->live->faces = is_last || r->light == (uint32_t)sends_direct(r) ? f->tree.faces : 0;
     f->live->elements = 0;
+    f->live->sky = NULL;
+    if (is_last ? gathers_live_sky(f) : r->light == 0 && has_live_sky(f)) {
+        f->live->sky = f->live_sky;
+    }
     if (requires_elements(r)) {
         status = lmb_elements_live(f->live, &f->elements);
     }
@@ -79,7 +102,10 @@ static lmb_status live_build(lmb_render *r)
     if (skips(r, LMB_SKIP_BOUNCE) || reuses(r, LMB_REUSE_BOUNCES)) {
         return LMB_OK;
     }
-    if (requires_elements(r)) {
+    if (has_live_sky(f)) {
+        status = lmb_many_lights_sky(f->live_sky, f->many_lights, f->scene);
+    }
+    if (status == LMB_OK && requires_elements(r)) {
         status = lmb_elements_build(&f->elements, f->scene, requires_texels(r) ? &f->tree : NULL);
     }
     return status == LMB_OK ? build_points(r) : status;
@@ -89,7 +115,13 @@ static lmb_status live_receive(const lmb_render *r, lmb_band_scratch *s, int32_t
 {
     const lmb_frame *f = &r->frame;
     lmb_live few = *f->live;
+    lmb_live_sky few_suns;
     few.strata = (few.strata + 3) / 4; /* a pixel sees many elements with independent noise */
+    if (few.sky != NULL) {
+        few_suns = *few.sky;
+        few_suns.strata = (few_suns.strata + 3) / 4;
+        few.sky = &few_suns;
+    }
     const lmb_status status =
         lmb_elements_receive_live(&f->elements, f->kernels, s->live, &few, live_bvh(f), first, past);
     count_live(stats, s->live);
@@ -124,7 +156,8 @@ static lmb_status live_tile(lmb_irradiance *inout, lmb_glossy *glossy, const lmb
             const lmb_live_receiver at = {tile_vec(tile->position, k), tile_vec(tile->face, k),
                                           tile_vec(tile->normal, k), tile->id[k],
                                           lmb_place_noise(tile_vec(tile->position, k), absf(tile->depth[k])),
-                                          view_to_eye(&r->frame.view, tile_vec(tile->position, k))};
+                                          view_to_eye(&r->frame.view, tile_vec(tile->position, k)),
+                                          live_turn(k % LMB_TILE, k / LMB_TILE)};
             float light[3];
             status = lmb_live_receive(light, r->frame.kernels, s->live, r->frame.live, live_bvh(&r->frame), &at);
             count_live(&s->counts, s->live);

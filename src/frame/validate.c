@@ -65,7 +65,7 @@ static int has_live(const lmb_frame *f)
     return f->gather_step != LMB_GATHER_LIVE ||
            (requires_live(f) && f->live->face != NULL && f->live->strata >= 1 && f->live->strata <= LMB_LIVE_STRATA &&
             f->live->element_cap >= f->elements.cap &&
-            f->scratch->live != NULL);
+            (f->live_sky == NULL || f->live_sky->chunk != NULL) && f->scratch->live != NULL);
 }
 
 lmb_status lmb_render_check(const lmb_frame *f)

@@ -324,6 +324,13 @@ typedef struct lmb_live_job {
     float split;     /* as in lmb_live */
 } lmb_live_job;
 
+/* Nodes that strata of equal light select: 16 times a chunk plus a lane, and the light from there to the node's end. */
+typedef struct lmb_live_picks {
+    uint16_t node[LMB_LIVE_STRATA];
+    float rest[LMB_LIVE_STRATA];
+    int32_t count;
+} lmb_live_picks;
+
 /* A plane with a triangle, for places in a map. */
 typedef struct lmb_live_surface {
     const lmb_view *view;
@@ -343,10 +350,14 @@ typedef struct lmb_live_sample {
     lmb_vec3 position, face, normal; /* as in lmb_tile */
     float light[3];                  /* irradiance, W/m2 */
     float slope[2][3];               /* gradient of light along columns and rows, W/m2 per px; before that, [0] holds
-                                        the unshadowed light */
+                                        the unshadowed bounced light, and [1] that of a sky */
     uint32_t id;                     /* the triangle */
-    uint8_t seen[3], is_lit;         /* unshadowed share of each channel, 0 .. 254; 0: no light to shade */
+    uint8_t is_lit[2];               /* by bounced light and a sky; 0: no light to shade */
+    uint16_t seen[2][3];             /* unshadowed share of each channel, 0 .. LIVE_STEPS and 0 .. LIVE_SKY_STEPS */
 } lmb_live_sample;
+
+#define LIVE_STEPS     254.0f   /* full values of `seen`; a sky may be seen through small holes */
+#define LIVE_SKY_STEPS 65024.0f
 
 #define LIVE_SAME_COS  0.95f /* places share light only if the cosine between their normals is at least this, */
 #define LIVE_SAME_LIFT 1e-3f /* and (height over the other's plane / distance)^2 at most this, at equal normals */
@@ -626,6 +637,12 @@ struct lmb_kernels {
     /* Samples a target from each of `strata` strata of the cut, at `place` of each, into inout->rays. `all` > 0: the
      * result of live_sums. Writes whole vectors. */
     void (*live_targets)(lmb_live_scratch *inout, const lmb_live *live, int32_t strata, float place, float all);
+    /* For light from infinity: live_sky sets the values and sums of the sky's chunks, and their light, and returns the
+     * sum of all. live_picks selects nodes as live_targets does. live_above completes scratch->rays, returns the
+     * targets above the receiver's horizon and clears the colours of the others. */
+    float (*live_sky)(float light[3], lmb_live_scratch *inout, const lmb_live_sky *sky, const lmb_live_job *job);
+    void (*live_picks)(lmb_live_picks *out, const lmb_live_scratch *scratch, int32_t strata, float place, float all);
+    uint64_t (*live_above)(lmb_live_scratch *inout, const lmb_live_receiver *at);
     /* live_ahead returns the targets that may light the receiver. live_share adds the colours of all targets to `all`
      * and of those `seen` to `some`. */
     uint64_t (*live_ahead)(const lmb_live_rays *rays, int32_t targets, const lmb_live_receiver *at);

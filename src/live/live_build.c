@@ -14,6 +14,9 @@ enum {
     TOP_SHIFT = 15,  /* of a key: the bits above are the cell of 1/16 and the side */
     GROUPS = 4,      /* planes per cell; further ones join the closest */
     GROUP_SHIFT = 30, /* of a key, while points are grouped by plane */
+    FINE_SHIFT = 21, /* of the keys of a node's own cells: cells of 1/4 */
+    CROWD = 256,     /* more points than this in a cell of 1/256 of the world get finer cells, */
+    ROUNDS = 3,      /* each time by 512 */
     PARTS = 64,      /* max parts of a node; the last takes the rest */
     TOP = LMB_LIVE_CUT / 2 * LMB_LIVE_NODES, /* nodes of the first level: half of a cut */
     DIGIT = 256      /* four passes sort 30 bits */
@@ -58,10 +61,16 @@ static uint32_t side_of(lmb_vec3 n)
     return x >= y && x >= z ? (n.x < 0.0f) : y >= z ? 2u + (n.y < 0.0f) : 4u + (n.z < 0.0f);
 }
 
+/* The cell's number along a Z curve. */
+static uint32_t place_key(const builder *b, lmb_vec3 place)
+{
+    const lmb_vec3 at = mul3(sub3(place, b->low), b->per_cell);
+    return spread(cell_of(at.x)) | spread(cell_of(at.y)) << 1 | spread(cell_of(at.z)) << 2;
+}
+
 static uint32_t key_of(const builder *b, const lmb_live_point *p)
 {
-    const lmb_vec3 at = mul3(sub3(p->position, b->low), b->per_cell);
-    const uint32_t z = spread(cell_of(at.x)) | spread(cell_of(at.y)) << 1 | spread(cell_of(at.z)) << 2;
+    const uint32_t z = place_key(b, p->position);
     return (z >> TOP_SHIFT) << (TOP_SHIFT + 3) | side_of(p->normal) << TOP_SHIFT | (z & ((1u << TOP_SHIFT) - 1));
 }
 
@@ -340,6 +349,12 @@ static uint32_t reserve(builder *b, uint32_t count)
     return first;
 }
 
+/* The first slot of the next chunk, or this one. */
+static uint32_t whole_chunks(uint32_t slots)
+{
+    return (slots + LMB_LIVE_NODES - 1) / LMB_LIVE_NODES * LMB_LIVE_NODES;
+}
+
 /* End of a run of points in one cell. */
 static uint32_t run_past(const lmb_live_point *p, uint32_t first, uint32_t past, int shift)
 {
@@ -381,13 +396,81 @@ static void divide(builder *b, uint32_t slot, int shift)
     c->count[i] = parts;
 }
 
-static void divide_level(builder *b, int shift)
+/* Divides the nodes from slot `first` on. */
+static void divide_level(builder *b, uint32_t first, int shift)
 {
     const uint32_t slots = b->slots;
-    for (uint32_t slot = 0; slot < slots; ++slot) {
+    for (uint32_t slot = first; slot < slots; ++slot) {
         const uint32_t count = b->live->chunk[slot / LMB_LIVE_NODES].count[slot % LMB_LIVE_NODES];
         if (count > (LMB_LIVE_LEAF | 1u)) {
             divide(b, slot, shift);
+        }
+    }
+}
+
+/* --- fine places -------------------------------------------------------------------------------------------------- */
+
+/* Sorts a node's points by cells of 1/512 of their own box. Returns 0 if memory is short. */
+static int sort_again(const builder *b, range r)
+{
+    lmb_live_point *p = b->live->sorted + r.first;
+    const uint32_t count = r.past - r.first, used = (b->slots + LMB_LIVE_NODES - 1) / LMB_LIVE_NODES;
+    lmb_live_point *aside = (lmb_live_point *)(void *)(b->live->chunk + used);
+    pair *one = (pair *)(void *)(aside + count), *other = one + count;
+    builder own = *b;
+    lmb_vec3 high = p->position;
+    if ((b->live->chunk_cap - used) * sizeof *b->live->chunk < count * (sizeof *aside + 2 * sizeof *one)) {
+        return 0;
+    }
+    own.low = p->position;
+    for (uint32_t i = 1; i < count; ++i) {
+        own.low = min3(own.low, p[i].position);
+        high = max3(high, p[i].position);
+    }
+    own.per_cell = (float)CELLS / maxf(largest3(sub3(high, own.low)), 1e-6f);
+    for (uint32_t i = 0; i < count; ++i) {
+        one[i].key = place_key(&own, p[i].position);
+        one[i].point = i;
+    }
+    for (int shift = 0; shift < 32; shift += 16) {
+        sort_by(other, one, count, shift);
+        sort_by(one, other, count, shift + 8);
+    }
+    memcpy(aside, p, count * sizeof *p);
+    for (uint32_t i = 0; i < count; ++i) {
+        p[i] = aside[one[i].point];
+        p[i].key = one[i].key;
+    }
+    return 1;
+}
+
+/* Divides the crowded nodes below the slot `past`. Returns 1 if there were any. */
+static int divide_crowds(builder *b, uint32_t past)
+{
+    int any = 0;
+    for (uint32_t slot = 0; slot < past; ++slot) {
+        const lmb_live_chunk *c = &b->live->chunk[slot / LMB_LIVE_NODES];
+        const uint32_t i = slot % LMB_LIVE_NODES, count = c->count[i] & ~LMB_LIVE_LEAF;
+        const range r = {c->first[i], c->first[i] + count};
+        if ((c->count[i] & LMB_LIVE_LEAF) != 0 && count > CROWD && sort_again(b, r)) {
+            divide(b, slot, FINE_SHIFT);
+            any = 1;
+        }
+    }
+    return any;
+}
+
+/* A house on a wide terrain lies in a few cells. Nodes that still have many points are divided by finer cells. */
+static void divide_fine(builder *b)
+{
+    for (int round = 0; round < ROUNDS; ++round) {
+        const uint32_t past = b->slots = whole_chunks(b->slots);
+        if (!divide_crowds(b, past)) {
+            return;
+        }
+        for (int shift = FINE_SHIFT - 6; shift > 0; shift -= 6) {
+            b->slots = whole_chunks(b->slots);
+            divide_level(b, past, shift);
         }
     }
 }
@@ -441,9 +524,10 @@ lmb_status lmb_live_build(lmb_live *live, const lmb_scene *scene)
     put_top(&b);
     live->top = b.slots;
     for (int shift = TOP_SHIFT - 6; shift > 0; shift -= 6) {
-        b.slots = (b.slots + LMB_LIVE_NODES - 1) / LMB_LIVE_NODES * LMB_LIVE_NODES;
-        divide_level(&b, shift);
+        b.slots = whole_chunks(b.slots);
+        divide_level(&b, 0, shift);
     }
+    divide_fine(&b);
     live->chunks = (b.slots + LMB_LIVE_NODES - 1) / LMB_LIVE_NODES;
     return LMB_OK;
 }

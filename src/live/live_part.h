@@ -27,6 +27,12 @@ void lmb_live_forget(lmb_live_scratch *scratch);
 #define lmb_live_forget(scratch) ((void)sizeof *(scratch))
 #endif
 
+enum { LIVE_SKY_PACKETS = 8 }; /* max packets of segments towards a sky */
+
+/* Adds the light of a sky, and sets scratch->sky_whole and sky_seen. at: the receiver as it is lit. */
+void lmb_live_add_sky(float light[3], const lmb_kernels *kernels, lmb_live_scratch *scratch, const lmb_live_sky *sky,
+                      const lmb_bvh *bvh, const struct lmb_live_job *job, const lmb_live_receiver *at);
+
 /* Returns the facet of an id in a face of the tree, from a cache of `many`; zero the ids before you use it. NULL if the
  * id names no triangle with an area. */
 const lmb_live_facet *lmb_live_facet_of(lmb_live_facet *known, uint32_t many, const lmb_scene *scene,

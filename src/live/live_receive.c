@@ -57,13 +57,41 @@ static int packets_of(int32_t seen, int32_t targets)
     return seen * 5 >= targets * 2 ? 1 : seen * 5 >= targets || seen == 0 ? 2 : 3;
 }
 
-static lmb_status light_receiver(float light[3], const lmb_kernels *kernels, lmb_live_scratch *s, const lmb_live *live,
-                           const lmb_bvh *bvh, const lmb_live_receiver *receiver)
+/* Sets the light of the tree: the cut's sum times the share of it that is seen. */
+static void light_of_tree(float light[3], const lmb_kernels *kernels, lmb_live_scratch *s, const lmb_live *live,
+                          const lmb_bvh *bvh, const lmb_live_receiver *at)
 {
     static const float place[3] = {0.5f, 0.16666667f, 0.83333333f}; /* within the strata; all have equal spacing */
     float all[3] = {0, 0, 0}, some[3] = {0, 0, 0};
     int32_t seen = 0, targets = 0;
     int packets = 1;
+    const float sum = kernels->live_sums(light, s);
+    s->rays.segments.at = at->position;
+    if (!(sum > 0.0f && sum < 1e30f)) {
+        light[0] = light[1] = light[2] = 0.0f;
+        return;
+    }
+    for (int packet = 0; packet < packets; ++packet) {
+        kernels->live_targets(s, live, live->strata, place[packet], sum);
+        const uint64_t asked = kernels->live_ahead(&s->rays, s->targets, at),
+                       clear = asked & ~lmb_live_blocked(kernels, s, bvh, at, asked);
+        s->segments += (uint64_t)count_bits_64(asked);
+        kernels->live_share(all, some, &s->rays, s->targets, clear);
+        seen += count_bits_64(clear);
+        targets += s->targets;
+        packets = packet == 0 ? packets_of(seen, targets) : packets;
+    }
+    for (int h = 0; h < 3; ++h) {
+        s->seen[h] = seen == targets ? 1.0f : all[h] > 0.0f ? some[h] / all[h] : (float)seen / (float)maxi(targets, 1);
+        s->whole[h] = light[h];
+        light[h] *= s->seen[h];
+    }
+}
+
+/* Lights a receiver by the tree and by the sky. */
+static lmb_status light_receiver(float light[3], const lmb_kernels *kernels, lmb_live_scratch *s, const lmb_live *live,
+                                 const lmb_bvh *bvh, const lmb_live_receiver *receiver)
+{
     lmb_live_job job;
     lmb_live_receiver at;
     at = *receiver;
@@ -82,27 +110,13 @@ static lmb_status light_receiver(float light[3], const lmb_kernels *kernels, lmb
         cut(s, kernels, live, &job);
     }
     s->full += (uint32_t)s->is_full;
-    const float sum = kernels->live_sums(light, s);
-    s->rays.segments.at = job.position;
-    if (!(sum > 0.0f && sum < 1e30f)) {
-        light[0] = light[1] = light[2] = s->whole[0] = s->whole[1] = s->whole[2] = 0.0f;
-        s->seen[0] = s->seen[1] = s->seen[2] = -1.0f;
-        return LMB_OK;
-    }
-    for (int packet = 0; packet < packets; ++packet) {
-        kernels->live_targets(s, live, live->strata, place[packet], sum);
-        const uint64_t asked = kernels->live_ahead(&s->rays, s->targets, &at),
-                       clear = asked & ~lmb_live_blocked(kernels, s, bvh, &at, asked);
-        s->segments += (uint64_t)count_bits_64(asked);
-        kernels->live_share(all, some, &s->rays, s->targets, clear);
-        seen += count_bits_64(clear);
-        targets += s->targets;
-        packets = packet == 0 ? packets_of(seen, targets) : packets;
-    }
     for (int h = 0; h < 3; ++h) {
-        s->seen[h] = seen == targets ? 1.0f : all[h] > 0.0f ? some[h] / all[h] : (float)seen / (float)maxi(targets, 1);
-        s->whole[h] = light[h];
-        light[h] *= s->seen[h];
+        s->whole[h] = s->sky_whole[h] = 0.0f;
+        s->seen[h] = s->sky_seen[h] = -1.0f;
+    }
+    light_of_tree(light, kernels, s, live, bvh, &at);
+    if (live->sky != NULL && live->sky->chunks > 0) {
+        lmb_live_add_sky(light, kernels, s, live->sky, bvh, &job, &at);
     }
     return LMB_OK;
 }
@@ -111,7 +125,8 @@ static int is_valid(const float light[3], const lmb_kernels *kernels, const lmb_
                     const lmb_live_receiver *receiver)
 {
     return light != NULL && kernels != NULL && s != NULL && live != NULL && live->face != NULL && receiver != NULL &&
-           live->strata >= 1 && live->strata <= LMB_LIVE_STRATA;
+           live->strata >= 1 && live->strata <= LMB_LIVE_STRATA &&
+           (live->sky == NULL || (live->sky->strata >= 1 && live->sky->strata <= LMB_LIVE_STRATA));
 }
 
 lmb_status lmb_live_receive_again(float light[3], const lmb_kernels *kernels, lmb_live_scratch *s,

@@ -283,33 +283,58 @@ static inline const lmb_live_chunk *live_part_at(int *lane_of, const lmb_live *l
     }
 }
 
-/* Stores the targets of the strata. pick: 16 times a chunk of the cut plus a lane. If a node has more than one stratum,
- * the part is used that lies `rest` of the light before the node's end. */
-static inline void live_put_targets(lmb_live_scratch *s, const lmb_live *live, const uint16_t *pick, const float *rest,
-                                    int32_t count, float step)
+/* Sums the sky's nodes, and each channel. Returns the total. The mean direction of a node above the horizon gives its
+ * light exactly. */
+static float KERNEL(live_sky)(float light[3], lmb_live_scratch *s, const lmb_live_sky *sky, const lmb_live_job *job)
 {
-    for (int32_t k = 0; k < count; ++k) {
-        const int32_t e = pick[k] / LMB_LIVE_NODES;
-        int i = pick[k] % LMB_LIVE_NODES;
-        const lmb_live_chunk *c = s->chunk[e];
-        const uint32_t parts = c->count[i];
-        if (s->value[e][i] > step && parts != 0 && (parts & LMB_LIVE_LEAF) == 0) {
-            const float left = clampf(rest[k] / s->value[e][i], 0.0f, 1.0f);
-            c = live_part_at(&i, live, c->first[i], parts, (1.0f - left) * c->power[i]);
-        }
-        live_put_target(&s->rays, k, c, i);
+    const lane zero = lane_splat(0.0f);
+    const lane3 normal = lane3_of(job->normal), face = lane3_of(job->face);
+    float all = 0.0f, sums[LMB_LIVE_NODES];
+    lane sum[3][LMB_LIVE_NODES / LANES];
+    for (int i = 0; i < LMB_LIVE_NODES / LANES; ++i) {
+        sum[0][i] = sum[1][i] = sum[2][i] = zero;
     }
+    s->count = (int32_t)sky->chunks;
+    for (int32_t k = 0; k < s->count; ++k) {
+        const lmb_live_suns *c = &sky->chunk[k];
+        uint32_t any = 0;
+        for (int i = 0; i < LMB_LIVE_NODES / LANES; ++i) {
+            lane3 toward;
+            toward.x = lane_load(c->toward[0] + i * LANES);
+            toward.y = lane_load(c->toward[1] + i * LANES);
+            toward.z = lane_load(c->toward[2] + i * LANES);
+            const lane cosine = lane3_dot(normal, toward);
+            lane_mask lit = lane_lt(lane_splat(0x1p-20f), cosine); /* no denormals */
+            if (job->is_bent) {
+                lit = mask_and(lit, lane_lt(zero, lane3_dot(face, toward)));
+            }
+            any |= mask_bits(lit);
+            lane_store(s->value[k] + i * LANES, lane_keep(lit, lane_mul(lane_load(c->power + i * LANES), cosine)));
+        }
+        s->sum[k] = any != 0 ? lane_sum16(s->value[k]) : 0.0f;
+        all += s->sum[k];
+        for (int i = 0; i < LMB_LIVE_NODES / LANES && s->sum[k] > 0.0f; ++i) {
+            const lane value = lane_load(s->value[k] + i * LANES);
+            for (int h = 0; h < 3; ++h) {
+                sum[h][i] = lane_add(sum[h][i], lane_mul(value, lane_load(c->colour[h] + i * LANES)));
+            }
+        }
+    }
+    for (int h = 0; h < 3; ++h) {
+        for (int i = 0; i < LMB_LIVE_NODES / LANES; ++i) {
+            lane_store(sums + i * LANES, sum[h][i]);
+        }
+        light[h] = lane_sum16(sums);
+    }
+    return all;
 }
 
-/* Selects targets: one for each of `strata` strata of `all` light, each at `place` in the stratum, 0 .. 1. */
-static void KERNEL(live_targets)(lmb_live_scratch *s, const lmb_live *live, int32_t strata, float place, float all)
+/* Selects a node for each of `strata` strata of `all` light, each at `place` in the stratum, 0 .. 1. */
+static void KERNEL(live_picks)(lmb_live_picks *out, const lmb_live_scratch *s, int32_t strata, float place, float all)
 {
-    lmb_live_rays *r = &s->rays;
     const float step = all / (float)strata;
-    float so_far = 0.0f, rest[LMB_LIVE_STRATA];
-    uint16_t pick[LMB_LIVE_STRATA];
+    float so_far = 0.0f, at = place * step;
     int32_t k = 0;
-    float at = place * step;
     for (int32_t e = 0; e < s->count && k < strata; ++e) {
         const float next = so_far + s->sum[e];
         if (at < next) {
@@ -321,17 +346,22 @@ static void KERNEL(live_targets)(lmb_live_scratch *s, const lmb_live *live, int3
             }
             while (some != 0 && k < strata && at < next) {
                 const int i = live_lane_at(sums, at, some);
-                pick[k] = (uint16_t)(e * LMB_LIVE_NODES + i);
-                rest[k] = sums[i] - at;
-                LIVE_SOON(&s->chunk[e]->target[i]);
+                out->node[k] = (uint16_t)(e * LMB_LIVE_NODES + i);
+                out->rest[k] = sums[i] - at;
                 ++k;
                 at = ((float)k + place) * step;
             }
         }
         so_far = next;
     }
-    live_put_targets(s, live, pick, rest, k, step);
-    s->targets = k;
+    out->count = k;
+}
+
+/* Completes the segments after s->targets targets were stored. */
+LANE_INLINE void live_towards(lmb_live_scratch *s)
+{
+    lmb_live_rays *r = &s->rays;
+    int32_t k = s->targets;
     for (; k % LMB_LIVE_NODES != 0; ++k) { /* padding that the sums include */
         for (int h = 0; h < 3; ++h) {
             r->to[h][k] = r->facet[h][k] = r->colour[h][k] = 0.0f;
@@ -343,6 +373,53 @@ static void KERNEL(live_targets)(lmb_live_scratch *s, const lmb_live *live, int3
             lane_store(r->segments.per[h] + i, crossed_per(lane_load(r->to[h] + i)));
         }
     }
+}
+
+/* The sum of a sky's nodes has no light from below the receiver's horizon, so such targets do not count. */
+static uint64_t KERNEL(live_above)(lmb_live_scratch *s, const lmb_live_receiver *at)
+{
+    lmb_live_rays *r = &s->rays;
+    const lane3 normal = lane3_of(at->normal), face = lane3_of(at->face);
+    const lane zero = lane_splat(0.0f);
+    uint64_t out = 0;
+    live_towards(s);
+    for (int k = 0; k < s->targets; k += LANES) {
+        lane3 to;
+        to.x = lane_load(r->to[0] + k);
+        to.y = lane_load(r->to[1] + k);
+        to.z = lane_load(r->to[2] + k);
+        const lane_mask above = mask_and(lane_lt(zero, lane3_dot(normal, to)), lane_lt(zero, lane3_dot(face, to)));
+        for (int h = 0; h < 3; ++h) {
+            lane_store(r->colour[h] + k, lane_keep(above, lane_load(r->colour[h] + k)));
+        }
+        out |= (uint64_t)mask_bits(above) << k;
+    }
+    return s->targets < LMB_TILE_PIXELS ? out & (((uint64_t)1 << s->targets) - 1) : out;
+}
+
+/* Selects targets: one for each of `strata` strata of `all` light, each at `place` in the stratum, 0 .. 1. If a node
+ * has more than one stratum, the part is used that lies the pick's `rest` of the light before the node's end. */
+static void KERNEL(live_targets)(lmb_live_scratch *s, const lmb_live *live, int32_t strata, float place, float all)
+{
+    const float step = all / (float)strata;
+    lmb_live_picks p;
+    KERNEL(live_picks)(&p, s, strata, place, all);
+    for (int32_t k = 0; k < p.count; ++k) {
+        LIVE_SOON(&s->chunk[p.node[k] / LMB_LIVE_NODES]->target[p.node[k] % LMB_LIVE_NODES]);
+    }
+    for (int32_t k = 0; k < p.count; ++k) {
+        const int32_t e = p.node[k] / LMB_LIVE_NODES;
+        int i = p.node[k] % LMB_LIVE_NODES;
+        const lmb_live_chunk *c = s->chunk[e];
+        const uint32_t parts = c->count[i];
+        if (s->value[e][i] > step && parts != 0 && (parts & LMB_LIVE_LEAF) == 0) {
+            const float left = clampf(p.rest[k] / s->value[e][i], 0.0f, 1.0f);
+            c = live_part_at(&i, live, c->first[i], parts, (1.0f - left) * c->power[i]);
+        }
+        live_put_target(&s->rays, k, c, i);
+    }
+    s->targets = p.count;
+    live_towards(s);
 }
 
 /* Targets that count: above the receiver's horizon, and with the receiver in front of the target's facet by more than

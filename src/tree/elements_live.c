@@ -65,7 +65,7 @@ lmb_status lmb_elements_receive_live(const lmb_elements *elements, const lmb_ker
         const lmb_texel *t = &elements->tree.texel[tree_along_z(&elements->tree, i)];
         lmb_element *e = &elements->data[i];
         const lmb_live_receiver at = {t->position, t->normal, t->normal, e->id, lmb_place_noise(t->position, 1.0f),
-                                      vec3(0, 0, 0)};
+                                      vec3(0, 0, 0), (float)(i * 5u % 9u) * (1.0f / 9.0f)};
         status = lmb_live_receive_again(e->fresh, kernels, scratch, live, bvh, &at);
     }
     return status;

@@ -41,6 +41,7 @@ static size_t shadow_map(const argument *a)
 LENGTH(lmb_points_init, memory, lmb_points_bytes(U(1), U(2)))
 LENGTH(lmb_lattice_init, memory, lmb_lattice_bytes(W(1), W(2)))
 LENGTH(lmb_live_init, memory, lmb_live_bytes(U(1), W(2), U(3)))
+LENGTH(lmb_live_sky_init, memory, lmb_live_sky_bytes(U(1)))
 LENGTH(lmb_elements_init, memory, lmb_elements_bytes(U(1)))
 LENGTH(lmb_env_init, memory, lmb_env_bytes(W(1)))
 LENGTH(lmb_many_lights_init, memory, lmb_many_lights_bytes(U(1)))
@@ -104,6 +105,7 @@ static const struct {
     IS(lmb_points_init, memory),
     IS(lmb_lattice_init, memory),
     IS(lmb_live_init, memory),
+    IS(lmb_live_sky_init, memory),
     IS(lmb_elements_init, memory),
     IS(lmb_env_init, memory),
     IS(lmb_many_lights_init, memory),

@@ -88,7 +88,7 @@ static kind kinds[] = {
     ONE(lmb_facts), ONE(lmb_fixed), ONE(lmb_fixed_frame), ONE(lmb_fixed_view), ONE(lmb_frame),
     ONE(lmb_frame_settings), ONE(lmb_gather_scratch), ONE(lmb_glossy), ONE(lmb_gouraud),
     ONE(lmb_gouraud_scratch), ONE(lmb_grouping), ONE(lmb_groups), ONE(lmb_hull), ONE(lmb_irradiance), ONE(lmb_lattice),
-    ONE(lmb_live), ONE(lmb_live_receiver), ONE(lmb_live_scratch), ONE(lmb_many_lights), ONE(lmb_many_lights_query),
+    ONE(lmb_live), ONE(lmb_live_receiver), ONE(lmb_live_scratch), ONE(lmb_live_sky), ONE(lmb_many_lights), ONE(lmb_many_lights_query),
     ONE(lmb_many_lights_scratch), ONE(lmb_multisample),
     ONE(lmb_occluder), ONE(lmb_pack), ONE(lmb_pinhole), ONE(lmb_plan), ONE(lmb_planes), ONE(lmb_points),
     ONE(lmb_probe), ONE(lmb_probe_answer), ONE(lmb_probe_blur), ONE(lmb_probe_cache), ONE(lmb_probe_cube),

@@ -710,6 +710,48 @@ static uint64_t case_live(int variant)
     const lmb_status two = lmb_live_init(&live, 1, lmb_live_side(1, TREE), 0, live_memory, sizeof live_memory);
     return hash_frame(golden_hash_u32(golden_hash_u32(GOLDEN_START, (uint32_t)one), (uint32_t)two), &f);
 }
+
+/* The same under a sky of random suns, the first brighter than all others. */
+static uint64_t case_live_sky(int variant)
+{
+    enum { SUNS = 96 };
+    static uint64_t live_memory[1 << 13] GOLDEN_ALIGNED, sky_memory[5 << 10] GOLDEN_ALIGNED,
+        stream_memory[SUNS * 100] GOLDEN_ALIGNED;
+    static lmb_live_scratch live_scratch;
+    static lmb_live live;
+    static lmb_live_sky sky;
+    const lmb_vec3 none = {0, 0, 0};
+    lmb_many_lights suns;
+    lmb_light sun;
+    lmb_frame f = soup_frame(1, TREE);
+    lmb_status status = lmb_many_lights_init(&suns, SUNS, none, none, 300.0f, stream_memory, sizeof stream_memory);
+    memset(&sun, 0, sizeof sun);
+    sun.kind = LMB_LIGHT_DIRECTIONAL;
+    sun.cos_inner = sun.cos_outer = 1.0f;
+    for (int i = 0; i < SUNS && status == LMB_OK; ++i) {
+        const float a = golden_random(-1, 1), b = golden_random(-1, 1), per = 1.0f / (1.0f + a * a + b * b);
+        sun.direction.x = 2.0f * a * per; /* a point of the plane onto the sphere */
+        sun.direction.y = 2.0f * b * per;
+        sun.direction.z = (i & 1 ? 1.0f : -1.0f) * (1.0f - a * a - b * b) * per;
+        for (int c = 0; c < 3; ++c) {
+            sun.intensity[c] = golden_random(0.0f, 0.1f) * (i == 0 ? (float)SUNS : 1.0f);
+        }
+        status = lmb_many_lights_add(&suns, &sun, 1);
+    }
+    f.gather_step = LMB_GATHER_LIVE;
+    f.occlusion = variant;
+    f.live = &live;
+    f.live_sky = &sky;
+    f.many_lights = &suns;
+    f.gather_many_lights = 1;
+    memory.scratch.live = &live_scratch;
+    status = status == LMB_OK ? lmb_many_lights_build(&suns) : status;
+    const lmb_status one = lmb_lattice_init(&f.lattice, WIDTH, HEIGHT, lattice, sizeof lattice);
+    const lmb_status two = lmb_live_init(&live, 1, lmb_live_side(1, TREE), 0, live_memory, sizeof live_memory);
+    const lmb_status three = lmb_live_sky_init(&sky, suns.cell_count, sky_memory, sizeof sky_memory);
+    const uint64_t h = golden_hash_u32(golden_hash_u32(GOLDEN_START, (uint32_t)status), (uint32_t)one);
+    return hash_frame(golden_hash_u32(golden_hash_u32(h, (uint32_t)two), (uint32_t)three), &f);
+}
 #endif
 
 #if LMB_MULTISAMPLE && !defined(LMB_CONFIG_TINY)

@@ -75,6 +75,7 @@ static lmb_live_receiver place_on(uint32_t triangle, lmb_vec3 eye, test_rng *r)
     at.id = triangle + 1;
     at.noise = lmb_place_noise(at.position, length3(sub3(eye, at.position)));
     at.to_eye = sub3(eye, at.position);
+    at.turn = 0.0f;
     return at;
 }
 
@@ -129,12 +130,13 @@ static double sum_of_all(const lmb_live_receiver *at, int channel, int shadows)
     return sum;
 }
 
-/* Returns whether a first point is so near that parts of it count. */
+/* Returns whether a first point is so near that parts of it count. Blocks of the wide world are as large as a room,
+ * and dark. */
 static int is_near(const lmb_live_receiver *at)
 {
     for (uint32_t i = 0; i < live.points; ++i) {
         const lmb_vec3 d = sub3(live.sorted[i].position, at->position);
-        if (dot3(d, d) < 16.0f * live.sorted[i].area && live.sorted[i].id != at->id) {
+        if (dot3(d, d) < 16.0f * live.sorted[i].area && live.sorted[i].id != at->id && live.sorted[i].area < 1.0f) {
             return 1;
         }
     }
@@ -303,7 +305,7 @@ static void quarters_of_blocks(void)
     for (int i = 0; i < 5; ++i) {
         for (int k = 0; k < 10; ++k) {
             const lmb_vec3 at = vec3(-0.8f + 0.41f * (float)i, 0, 0.1f + 0.01f * (float)k);
-            const lmb_live_receiver r = {at, Y, Y, 1, 1e-6f, vec3(0, 1, 0)};
+            const lmb_live_receiver r = {at, Y, Y, 1, 1e-6f, vec3(0, 1, 0), 0.0f};
             const double area = 0.02 * 1.0;
             float out[3];
             receive(out, picked_kernels(), &r, 0);
@@ -566,6 +568,224 @@ static void boxes_by_lanes(void)
     CHECK_MSG(wrong == 0 && met > 1000, "%d of %d differ", wrong, met);
 }
 
+/* --- light from infinity ------------------------------------------------------------------------------------------ */
+
+enum { SUNS = 3000 };
+
+static uint64_t stream_memory[SUNS * 100], sky_memory[1 << 14];
+static lmb_light suns[SUNS];
+static lmb_many_lights stream;
+static lmb_live_sky sky;
+
+/* Suns all around on a spiral, 1 W/(m2 sr) in all channels; those above are twice as green. `first`: one is as bright
+ * as all others together. `kinds`: one is a point. */
+static void make_suns(int first, int kinds)
+{
+    for (int i = 0; i < SUNS; ++i) {
+        const double y = 1 - (2 * i + 1.0) / SUNS, out = sqrt(1 - y * y), turn = 2.399963229728653 * i;
+        const float each = (float)(4 * PI / SUNS * (i == 500 && first ? SUNS : 1));
+        memset(&suns[i], 0, sizeof suns[i]);
+        suns[i].kind = i == 0 && kinds ? LMB_LIGHT_POINT : LMB_LIGHT_DIRECTIONAL;
+        suns[i].direction = vec3((float)(-out * cos(turn)), (float)-y, (float)(-out * sin(turn)));
+        suns[i].cos_inner = suns[i].cos_outer = 1.0f;
+        suns[i].intensity[0] = suns[i].intensity[1] = suns[i].intensity[2] = each;
+        suns[i].intensity[1] *= y > 0.8 ? 2.0f : 1.0f;
+    }
+    CHECK(lmb_many_lights_bytes(SUNS) <= sizeof stream_memory);
+    CHECK(lmb_many_lights_init(&stream, SUNS, vec3(-1, -1, -1), vec3(1, 1, 1), 200, stream_memory,
+                               sizeof stream_memory) == LMB_OK);
+    CHECK(lmb_many_lights_add(&stream, suns, SUNS) == LMB_OK && lmb_many_lights_build(&stream) == LMB_OK);
+}
+
+/* The world under that sky. */
+static void begin_sky(int first)
+{
+    make_suns(first, 0);
+    memset(live_memory, 0x5a, sizeof live_memory);
+    memset(sky_memory, 0x5a, sizeof sky_memory);
+    CHECK(world_end() == LMB_OK);
+    CHECK(lmb_live_init(&live, 1, 1, 0, live_memory, sizeof live_memory) == LMB_OK);
+    CHECK(lmb_live_build(&live, &world.scene) == LMB_OK && live.points == 0);
+    CHECK(lmb_live_sky_bytes(SUNS) <= sizeof sky_memory);
+    CHECK(lmb_live_sky_init(&sky, SUNS, sky_memory, sizeof sky_memory) == LMB_OK);
+    CHECK(lmb_many_lights_sky(&sky, &stream, &world.scene) == LMB_OK);
+    CHECK(sky.chunks > LMB_LIVE_SKY / 4 && sky.chunks <= LMB_LIVE_SKY);
+    live.sky = &sky;
+    CHECK(lmb_bvh_init(&bvh, world.count, bvh_memory, sizeof bvh_memory) == LMB_OK);
+    CHECK(lmb_bvh_build(&bvh, &world.scene) == LMB_OK);
+}
+
+/* Light of all suns one by one. */
+static double sum_of_suns(const lmb_live_receiver *at, int channel, int shadows)
+{
+    double sum = 0.0;
+    for (int i = 0; i < SUNS; ++i) {
+        const lmb_vec3 to = mul3(suns[i].direction, -1.0f);
+        const double here = (double)dot3(to, at->normal);
+        if (here > 0.0 && dot3(to, at->face) > 0.0f &&
+            (!shadows || !is_hidden(at->position, add3(at->position, mul3(to, 100)), at->id, 0))) {
+            sum += (double)suns[i].intensity[channel] * here;
+        }
+    }
+    return sum;
+}
+
+/* Errors against all suns, with neighbours' turns averaged. */
+static void sky_errors(const char *what, lmb_vec3 eye, int count, int shadows, double rms_bar, double bias_bar)
+{
+    test_rng r = {43};
+    double rms = 0.0, bias = 0.0, mean = 0.0;
+    for (int i = 0; i < count; ++i) {
+        lmb_live_receiver at = place_on(test_random(&r) % world.count, eye, &r);
+        double got = 0.0;
+        at.normal = i % 2 ? normalize3(add3(at.face, vec3(0.3f, 0.1f, -0.2f))) : at.face;
+        for (int k = 0; k < 9; ++k) {
+            float light[3];
+            at.turn = ((float)k + 0.5f) / 9.0f;
+            receive(light, picked_kernels(), &at, shadows);
+            got += (double)light[1] / 9.0;
+        }
+        const double want = sum_of_suns(&at, 1, shadows);
+        rms += (got - want) * (got - want);
+        bias += got - want;
+        mean += want;
+    }
+    CHECK_MSG(sqrt(rms * count) < rms_bar * mean && fabs(bias) < bias_bar * mean && mean > 0.0,
+              "%s: rms %.4f, bias %.4f of %.4f W/m2", what, sqrt(rms * count) / mean, bias / mean, mean / count);
+}
+
+/* A room with an opening of 2 x `half` in the ceiling, with a table. */
+static void room_with_hole(float half)
+{
+    const float rest = 0.5f * (1 - half);
+    world_begin(0.5f, 0.5f, 0.5f);
+    world_quad(vec3(0, 0, 0), mul3(Z, 1), mul3(X, 1));
+    for (int i = 0; i < 2; ++i) {
+        const float side = i ? -1.0f : 1.0f;
+        world_quad(vec3(side, 1, 0), mul3(Y, 1), mul3(Z, 1));
+        world_quad(vec3(0, 1, side), mul3(Y, 1), mul3(X, 1));
+        world_quad(vec3(side * (half + rest), 2, 0), mul3(Z, 1), mul3(X, rest));
+        world_quad(vec3(0, 2, side * (half + rest)), mul3(Z, rest), mul3(X, half));
+    }
+    world_quad(vec3(0.2f, 0.7f, 0.1f), mul3(Z, 0.4f), mul3(X, 0.5f));
+}
+
+static void under_a_sky(void)
+{
+    const lmb_vec3 eye = vec3(-0.7f, 1.5f, -0.7f);
+    test_rng r = {47};
+    int lit = 0;
+    room_with_hole(0.7f);
+    begin_sky(0);
+    sky_errors("without shadows", eye, 300, 0, 0.004, 0.002);
+    sky_errors("a large hole", eye, 120, 1, 0.04, 0.02);
+    begin_sky(1);
+    sky_errors("a bright sun, without shadows", eye, 300, 0, 0.004, 0.002);
+    sky_errors("a bright sun", eye, 120, 1, 0.12, 0.03);
+    room_with_hole(0.12f);
+    begin_sky(0);
+    sky_errors("a small hole", eye, 240, 1, 0.25, 0.06);
+    room_with_table();
+    begin_sky(1);
+    for (int i = 0; i < 2000; ++i) {
+        lmb_live_receiver at = place_on(test_random(&r) % world.count, eye, &r);
+        float light[3];
+        at.turn = test_uniform(&r, 0, 1);
+        receive(light, picked_kernels(), &at, 1);
+        lit += light[0] != 0.0f || light[1] != 0.0f || light[2] != 0.0f;
+    }
+    CHECK_MSG(lit == 0, "%d points of a closed room are lit", lit);
+}
+
+/* On every backend, with every number of strata and any turn. */
+static void same_sky_bytes(void)
+{
+    const lmb_kernels *const scalar = lmb_kernels_named("scalar");
+    const lmb_kernels *const backends[] = {LMB_BACKENDS(KERNELS_OF_THIS)};
+    test_rng r = {53};
+    int wrong = 0, lit = 0;
+    room_with_hole(0.5f);
+    begin_sky(1);
+    for (int i = 0; i < 400; ++i) {
+        lmb_live_receiver at = place_on(test_random(&r) % world.count, vec3(-0.7f, 1.5f, -0.7f), &r);
+        float plain[3];
+        at.normal = i % 2 ? normalize3(add3(at.face, vec3(0.2f, 0.1f, -0.1f))) : at.face;
+        at.turn = test_uniform(&r, -0.5f, 1.5f);
+        sky.strata = 1 + (int32_t)(test_random(&r) % LMB_LIVE_STRATA);
+        receive(plain, scalar, &at, 1);
+        lit += plain[0] > 0.0f;
+        for (int k = 0; k < COUNT(backends); ++k) {
+            float light[3];
+            if (backends[k] != NULL) {
+                receive(light, backends[k], &at, 1);
+                wrong += memcmp(light, plain, sizeof plain) != 0;
+            }
+        }
+    }
+    CHECK_MSG(wrong == 0 && lit > 100, "%d differ; %d are lit", wrong, lit);
+}
+
+static void sky_refusals(void)
+{
+    const lmb_scene *scene = &world.scene;
+    lmb_live_sky few, before;
+    float light[3];
+    lmb_live_receiver at;
+    memset(&at, 0, sizeof at);
+    CHECK(lmb_live_sky_bytes(0) == 0 && lmb_live_sky_bytes((1u << 22) + 1) == 0);
+    CHECK(lmb_live_sky_init(NULL, 9, sky_memory, sizeof sky_memory) == LMB_ERR_ARG);
+    CHECK(lmb_live_sky_init(&few, 0, sky_memory, sizeof sky_memory) == LMB_ERR_ARG);
+    CHECK(lmb_live_sky_init(&few, 9, (uint8_t *)sky_memory + 1, sizeof sky_memory - 1) == LMB_ERR_ALIGN);
+    CHECK(lmb_live_sky_init(&few, 9, sky_memory, lmb_live_sky_bytes(9) - 1) == LMB_ERR_CAPACITY);
+    make_suns(0, 0);
+    CHECK(lmb_live_sky_init(&few, stream.cell_count - 1, sky_memory, sizeof sky_memory) == LMB_OK);
+    before = few;
+    CHECK(lmb_many_lights_sky(&few, &stream, scene) == LMB_ERR_CAPACITY);
+    CHECK(memcmp(&few, &before, sizeof few) == 0);
+    CHECK(lmb_live_sky_init(&few, stream.cell_count, sky_memory, sizeof sky_memory) == LMB_OK);
+    CHECK(lmb_many_lights_sky(&few, &stream, scene) == LMB_OK);
+    few.strata = LMB_LIVE_STRATA + 1;
+    live.sky = &few;
+    CHECK(lmb_live_receive(light, picked_kernels(), &scratch, &live, NULL, &at) == LMB_ERR_ARG);
+    CHECK(lmb_many_lights_sky(NULL, &stream, scene) == LMB_ERR_ARG);
+    CHECK(lmb_many_lights_sky(&few, NULL, scene) == LMB_ERR_ARG);
+    CHECK(lmb_many_lights_sky(&few, &stream, NULL) == LMB_ERR_ARG);
+    make_suns(0, 1);
+    CHECK(lmb_many_lights_sky(&few, &stream, scene) == LMB_ERR_ARG); /* other lights too */
+    CHECK(lmb_many_lights_init(&stream, 9, vec3(0, 0, 0), vec3(0, 0, 0), 1, stream_memory, sizeof stream_memory) ==
+          LMB_OK);
+    CHECK(lmb_many_lights_sky(&few, &stream, scene) == LMB_ERR_ARG); /* not built */
+}
+
+/* A room on a ground of 4 km: all its first points lie in one cell of the world. */
+static void in_a_wide_world(void)
+{
+    const lmb_vec3 eye = vec3(-0.7f, 1.5f, -0.7f);
+    lmb_light lights[2] = {point_light(vec3(-0.6f, 1.6f, 0.2f)), sun(vec3(0.6f, -0.8f, 0))};
+    test_rng r = {59};
+    for (int c = 0; c < 3; ++c) {
+        lights[1].intensity[c] = 1e-6f;
+    }
+    room_with_table();
+    world_quad(vec3(0, -1, 0), mul3(Z, 2000), mul3(X, 2000));
+    light_world(lights, 2);
+    const uint32_t inside = world.count - 2;
+    double off = 0.0, mean = 0.0;
+    for (int i = 0; i < 200; ++i) {
+        lmb_live_receiver at = place_on(test_random(&r) % inside, eye, &r);
+        float light[3];
+        if (!is_near(&at)) {
+            receive(light, picked_kernels(), &at, 0);
+            const double want = sum_of_all(&at, 0, 0);
+            off += ((double)light[0] - want) * ((double)light[0] - want);
+            mean += want;
+        }
+    }
+    CHECK_MSG(sqrt(off * 200) < 0.02 * mean, "rms %.4f", sqrt(off * 200) / mean);
+    live.chunk_cap = live.chunks / 2; /* no memory to sort in */
+    CHECK(lmb_live_build(&live, &world.scene) == LMB_OK && live.chunks <= live.chunk_cap);
+}
+
 /* Too few chunks: coarser nodes, the same light. */
 static void few_chunks(void)
 {
@@ -688,6 +908,10 @@ void test_live(void)
     same_bytes();
     places_by_lanes();
     boxes_by_lanes();
+    under_a_sky();
+    same_sky_bytes();
+    sky_refusals();
+    in_a_wide_world();
     few_chunks();
     many_planes();
     parts_fit();

@@ -67,11 +67,12 @@ static int light_level(int32_t level, light_at at)
             s->face = tile_vec(from->face, grid_pixel(k));
             s->normal = tile_vec(from->normal, grid_pixel(k));
             s->id = from->id[grid_pixel(k)];
-            s->is_lit = 1;
+            s->is_lit[0] = 1;
+            s->is_lit[1] = 0;
             for (int c = 0; c < 3; ++c) {
                 s->light[c] = (float)(c + 1) * at((float)(tile[i].x + k % 4 * 2), (float)(tile[i].y + k / 4 * 2));
                 s->slope[0][c] = s->light[c];
-                s->seen[c] = 254;
+                s->seen[0][c] = (uint16_t)LIVE_STEPS;
             }
         }
         t->known |= (uint16_t)asked;
@@ -177,10 +178,12 @@ static void test_edge(const lmb_kernels *kernels)
     CHECK_MSG(wrong == 0, "%d pixels", wrong);
 }
 
-/* Shares that differ by noise become equal; a shadow's edge stays. */
-static void test_noise(int32_t step)
+/* Shares that differ by noise become equal; a shadow's edge stays. `kind`: 0: of bounced light; 1: of a sky, beside
+ * bounced light that is fully visible. */
+static void test_noise(int32_t step, int kind)
 {
     const int every = step / LMB_TILE, last = 6 - every;
+    const float full = kind ? LIVE_SKY_STEPS : LIVE_STEPS, beside = kind ? 0.25f : 0.0f;
     float before = 0.0f, after = 0.0f, lit = 0.0f, dark = 0.0f;
     int count = 0;
     put_wall(1000);
@@ -190,19 +193,23 @@ static void test_noise(int32_t step)
     }
     for (int32_t i = 0; i < TILES; ++i) {
         lmb_live_sample *s = &grid.first[i];
+        s->is_lit[1] = (uint8_t)kind;
         for (int c = 0; c < 3; ++c) {
-            s->slope[0][c] = 1.0f;
-            s->seen[c] = (uint8_t)(i % COLUMNS < 6 ? 127 + (i * 7 % 5 - 2) * 9 : 0);
-            s->light[c] = (float)s->seen[c] / 254.0f;
+            const float share = i % COLUMNS < 6 ? (float)(127 + (i * 7 % 5 - 2) * 9) / 254.0f : 0.0f;
+            s->slope[0][c] = beside;
+            s->slope[kind][c] = 1.0f;
+            s->seen[kind][c] = (uint16_t)(share * full + 0.5f);
+            s->light[c] = share + beside;
         }
-        before += i % COLUMNS < 6 && (grid.tile[i].known & 1u) ? (s->light[0] - 0.5f) * (s->light[0] - 0.5f) : 0.0f;
+        const float off = s->light[0] - beside - 0.5f;
+        before += i % COLUMNS < 6 && (grid.tile[i].known & 1u) ? off * off : 0.0f;
     }
     for (int32_t i = 0; i < TILES; ++i) {
         if (!(grid.tile[i].known & 1u)) {
             continue;
         }
         lmb_live_grid_smooth(&grid, i % COLUMNS, i / COLUMNS);
-        const float now = grid.first[i].light[0];
+        const float now = grid.first[i].light[0] - beside;
         after += i % COLUMNS < 6 ? (now - 0.5f) * (now - 0.5f) : 0.0f;
         count += i % COLUMNS < 6;
         lit += i % COLUMNS == last ? now : 0.0f;
@@ -211,6 +218,43 @@ static void test_noise(int32_t step)
     CHECK_MSG(after < 0.3f * before, "%g of %g", (double)after, (double)before);
     CHECK_MSG(dark == 0.0f && lit * (float)every > 4.0f, "%g, %g", (double)lit, (double)dark);
     CHECK(count == 6 * ROWS / (every * every));
+}
+
+/* A sky that is seen through a small hole keeps its light. */
+static void test_small_share(void)
+{
+    put_wall(1000);
+    light_level(0, even);
+    for (int32_t i = 0; i < TILES; ++i) {
+        lmb_live_sample *s = &grid.first[i];
+        s->is_lit[0] = 0;
+        s->is_lit[1] = 1;
+        for (int c = 0; c < 3; ++c) {
+            s->slope[1][c] = 1.0f;
+            s->seen[1][c] = (uint16_t)(0.001f * LIVE_SKY_STEPS + 0.5f);
+        }
+    }
+    for (int32_t i = 0; i < TILES; ++i) {
+        if (grid.tile[i].known & 1u) {
+            lmb_live_grid_smooth(&grid, i % COLUMNS, i / COLUMNS);
+            CHECK(absf(grid.first[i].light[1] - 0.001f) < 1e-5f);
+        }
+    }
+}
+
+/* Any 3 x 3 samples of a grid have nine shifts. */
+static void test_turns(void)
+{
+    for (int32_t i = 0; i < 300; ++i) {
+        const int32_t x = i % 10, y = i / 10 % 10, step = 1 << i / 100;
+        uint32_t found = 0;
+        for (int k = 0; k < 9; ++k) {
+            const float turn = live_turn(x + k % 3 * step, y + k / 3 * step);
+            CHECK(turn > 0.0f && turn < 1.0f);
+            found |= 1u << (int)(turn * 9.0f);
+        }
+        CHECK_MSG(found == 0x1ffu, "step %d at %d, %d: %x", (int)step, (int)x, (int)y, (unsigned)found);
+    }
 }
 
 /* The same light on all backends. */
@@ -232,7 +276,11 @@ void test_live_grid(void)
 {
     test_walls(lmb_kernels_pick());
     test_edge(lmb_kernels_pick());
-    test_noise(LMB_TILE);
-    test_noise(GRID_COARSE);
+    test_noise(LMB_TILE, 0);
+    test_noise(GRID_COARSE, 0);
+    test_noise(LMB_TILE, 1);
+    test_noise(GRID_COARSE, 1);
+    test_small_share();
+    test_turns();
     test_backends();
 }

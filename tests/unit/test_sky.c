@@ -208,23 +208,30 @@ static void draw_sky_light(lmb_frame_settings *s, const lmb_many_lights *sky)
     CHECK(lmb_render_frame(&r, &frame) == LMB_OK);
 }
 
-/* The centre pixel's irradiance, viewed from above `at`. */
-static float irradiance_at(const lmb_many_lights *sky, lmb_vec3 at, float from, int32_t samples)
+/* The centre pixel's irradiance, viewed from above `at`. gather_step: 0, or LMB_GATHER_LIVE. */
+static float irradiance_at(const lmb_many_lights *sky, lmb_vec3 at, float from, int32_t samples, int32_t gather_step)
 {
     lmb_view view;
     CHECK(lmb_view_look_at(&view, add3(at, vec3(0, from, 0)), at, Z, 0.02f, 8, 8) == LMB_OK);
     lmb_frame_settings s = draft_settings(&world.scene, view);
     s.samples = samples;
+    s.gather_step = gather_step;
+    s.quality = gather_step != 0 ? LMB_QUALITY_DEFAULT : s.quality; /* more segments: so few pixels do not average */
     draw_sky_light(&s, sky);
     const float *p = (const float *)frame.out.data + 3 * (4 * 8 + 4);
     return p[1] * (float)PI / 0.01f; /* the albedo: almost no bounced light */
 }
 
+/* Single points see a small hole by few segments: test_live.c checks their mean. */
 static void check_at(const lmb_many_lights *sky, const char *what, lmb_vec3 at, float from, double want, double bar)
 {
-    const double one = (double)irradiance_at(sky, at, from, 1), four = (double)irradiance_at(sky, at, from, 4);
-    CHECK_MSG(fabs(one / want - 1) < bar, "%s: %.4f, not %.4f W/m2", what, one, want);
-    CHECK_MSG(fabs(four / one - 1) < 0.02, "%s: by four samples %.4f, by one %.4f", what, four, one);
+    for (int live = 0; live <= (LMB_LIVE && want > 0.1); ++live) {
+        const int32_t step = live ? LMB_GATHER_LIVE : 0;
+        const double one = (double)irradiance_at(sky, at, from, 1, step),
+                     four = (double)irradiance_at(sky, at, from, 4, step);
+        CHECK_MSG(fabs(one / want - 1) < bar, "%s, live %d: %.4f, not %.4f W/m2", what, live, one, want);
+        CHECK_MSG(fabs(four / one - 1) < 0.02, "%s, live %d: by four samples %.4f, by one %.4f", what, live, four, one);
+    }
 }
 
 static void check_open(const lmb_many_lights *sky)
@@ -287,7 +294,7 @@ static void check_window(const lmb_many_lights *sky, const char *what, float hal
 }
 
 /* A torus under the sky with few samples; all lengths times `scale`. */
-static uint64_t scaled_hash(const lmb_many_lights *sky, float scale)
+static uint64_t scaled_hash(const lmb_many_lights *sky, float scale, int32_t gather_step)
 {
     static torus t;
     lmb_view view;
@@ -303,7 +310,7 @@ static uint64_t scaled_hash(const lmb_many_lights *sky, float scale)
     lmb_scene_bounds(&t.scene.bounds_min, &t.scene.bounds_max, &t.scene);
     CHECK(lmb_view_look_at(&view, mul3(vec3(3, 3, 5), scale), mul3(vec3(0, 0.5f, 0), scale), Y, 0.7f, 64, 48) == LMB_OK);
     lmb_frame_settings s = draft_settings(&t.scene, view);
-    s.gather_step = LMB_GATHER_ADAPTIVE;
+    s.gather_step = gather_step;
     draw_sky_light(&s, sky);
     for (int32_t y = 0; y < 48; ++y) {
         const uint8_t *row = (const uint8_t *)frame.out.data + y * frame.out.stride_bytes;
@@ -315,14 +322,137 @@ static uint64_t scaled_hash(const lmb_many_lights *sky, float scale)
 }
 
 /* Nothing depends on the metre: scaling by powers of two changes no bit. */
-static void check_scales(const lmb_many_lights *sky)
+static void check_scales(const lmb_many_lights *sky, int32_t gather_step)
 {
     static const float scales[] = {1.0f / 256, 65536};
-    const uint64_t want = scaled_hash(sky, 1);
+    const uint64_t want = scaled_hash(sky, 1, gather_step);
     for (int i = 0; i < COUNT(scales); ++i) {
-        CHECK_MSG(scaled_hash(sky, scales[i]) == want, "%g times as large: other bits", (double)scales[i]);
+        CHECK_MSG(scaled_hash(sky, scales[i], gather_step) == want, "%g times as large: other bits", (double)scales[i]);
     }
 }
+
+#if LMB_LIVE
+enum { WIDE = 144, HIGH = 112 };
+static float picture[2][3 * WIDE * HIGH];
+
+/* A room with a hole in the ceiling of 2 m, seen from inside. */
+static lmb_frame_settings room_settings(const lmb_many_lights *sky, int32_t gather_step)
+{
+    lmb_view view;
+    CHECK(lmb_view_look_at(&view, vec3(-1.6f, 1.2f, -1.7f), vec3(1, 0.8f, 1), Y, 1.2f, WIDE, HIGH) == LMB_OK);
+    lmb_frame_settings s = draft_settings(&world.scene, view);
+    s.many_lights = sky;
+    s.show = LMB_SHOW_INDIRECT;
+    s.gather_step = gather_step;
+    s.quality = LMB_QUALITY_DEFAULT;
+    return s;
+}
+
+static void begin_room(float albedo)
+{
+    world_begin(albedo, albedo, albedo);
+    world_quad(vec3(0, 0, 0), mul3(Z, 2), mul3(X, 2));
+    for (int i = 0; i < 2; ++i) {
+        const float side = i ? -1.0f : 1.0f;
+        world_quad(vec3(2 * side, 1.5f, 0), mul3(Y, 1.5f), mul3(Z, 2));
+        world_quad(vec3(0, 1.5f, 2 * side), mul3(Y, 1.5f), mul3(X, 2));
+        world_quad(vec3(side * 1.5f, 3, 0), mul3(Z, 2), mul3(X, 0.5f));
+        world_quad(vec3(0, 3, side * 1.5f), mul3(Z, 0.5f), mul3(X, 1));
+    }
+    world_quad(vec3(0.2f, 0.8f, 0.6f), mul3(Z, 0.5f), mul3(X, 0.6f));
+    world_end();
+}
+
+/* Draws into picture[i]; the frame's pieces in `units`, if they are not 0. */
+static double draw_room(int i, const lmb_many_lights *sky, int32_t gather_step, int32_t units, int32_t threads)
+{
+    static lmb_render r;
+    double sum = 0;
+    lmb_frame_settings s = room_settings(sky, gather_step);
+    s.threads = threads;
+    lay_out(&s);
+    frame.gather_many_lights = 1;
+    memset(&r, 0, sizeof r);
+    lmb_status status = units == 0 ? lmb_render_frame(&r, &frame) : lmb_render_begin(&r, &frame);
+    for (status = units > 0 && status == LMB_OK ? LMB_MORE : status; status == LMB_MORE;) {
+        status = lmb_render_step(&r, units);
+    }
+    CHECK(status == LMB_OK);
+    memcpy(picture[i], frame.out.data, sizeof picture[i]);
+    for (int k = 0; k < 3 * WIDE * HIGH; ++k) {
+        sum += (double)picture[i][k];
+    }
+    return sum;
+}
+
+/* Single points: the light of cuts, also if it is reflected once; the same bytes by steps; a second picture. */
+static void check_live(const lmb_many_lights *sky)
+{
+    static lmb_render r;
+    for (int i = 0; i < 2; ++i) {
+        double off = 0;
+        begin_room(i ? 0.8f : 0.01f);
+        const double whole = draw_room(0, sky, 0, 0, 1), live = draw_room(1, sky, LMB_GATHER_LIVE, 0, 1);
+        for (int k = 0; k < 3 * WIDE * HIGH; ++k) {
+            off += (double)((picture[0][k] - picture[1][k]) * (picture[0][k] - picture[1][k]));
+        }
+        off = sqrt(off * 3 * WIDE * HIGH) / whole;
+        CHECK_MSG(fabs(live / whole - 1) < 0.03 && off < 0.12, "live light of a sky, %d: %.4f of it, rmse %.4f", i,
+                  live / whole, off);
+    }
+    memcpy(picture[0], picture[1], sizeof picture[0]);
+    for (int32_t units = 1; units < 100; units += 13) {
+        draw_room(1, sky, LMB_GATHER_LIVE, units, 2);
+        CHECK_MSG(memcmp(picture[0], picture[1], sizeof picture[0]) == 0, "other bytes in steps of %d", (int)units);
+    }
+    /* Without the sky, and with it again. */
+    lmb_frame_settings s = room_settings(sky, LMB_GATHER_LIVE);
+    lay_out(&s);
+    memset(&r, 0, sizeof r);
+    CHECK(frame.live_sky != NULL && lmb_render_frame(&r, &frame) == LMB_OK);
+    CHECK(memcmp(frame.out.data, picture[0], sizeof picture[0]) != 0);
+    frame.gather_many_lights = 1;
+    lmb_status status = lmb_render_again(&r, &frame);
+    CHECK(status == LMB_OK);
+    for (status = LMB_MORE; status == LMB_MORE;) {
+        status = lmb_render_step(&r, 1000);
+    }
+    CHECK(status == LMB_OK && memcmp(frame.out.data, picture[0], sizeof picture[0]) == 0);
+}
+
+/* A tree of suns and other lights, and one that outgrew the frame, are gathered by cuts. */
+static void check_other_lights(const lmb_many_lights *sky)
+{
+    static uint64_t memory[1 << 14];
+    static lmb_render r;
+    lmb_many_lights mixed;
+    begin_room(0.5f);
+    lights[0].kind = LMB_LIGHT_POINT;
+    lights[0].position = vec3(0, 2, 0);
+    CHECK(lmb_many_lights_init(&mixed, 64, vec3(-2, 0, -2), vec3(2, 3, 2), 64, memory, sizeof memory) == LMB_OK);
+    CHECK(lmb_many_lights_add(&mixed, lights, 40) == LMB_OK && lmb_many_lights_build(&mixed) == LMB_OK);
+    lmb_frame_settings s = room_settings(&mixed, LMB_GATHER_LIVE);
+    lay_out(&s);
+    CHECK(frame.live_sky == NULL);
+    const double whole = draw_room(0, &mixed, 0, 0, 1), live = draw_room(1, &mixed, LMB_GATHER_LIVE, 0, 1);
+    CHECK_MSG(fabs(live / whole - 1) < 0.03, "other lights: %.4f", live / whole);
+    const double more = draw_room(0, sky, 0, 0, 1);
+    CHECK(lmb_many_lights_init(&mixed, 64, vec3(-2, 0, -2), vec3(2, 3, 2), 64, memory, sizeof memory) == LMB_OK);
+    CHECK(lmb_many_lights_add(&mixed, lights + 1, 9) == LMB_OK && lmb_many_lights_build(&mixed) == LMB_OK);
+    s = room_settings(&mixed, LMB_GATHER_LIVE);
+    lay_out(&s);
+    CHECK(frame.live_sky != NULL);
+    frame.many_lights = sky;
+    frame.gather_many_lights = 1;
+    memset(&r, 0, sizeof r);
+    CHECK(lmb_render_frame(&r, &frame) == LMB_OK);
+    double sum = 0;
+    for (int k = 0; k < 3 * WIDE * HIGH; ++k) {
+        sum += (double)((const float *)frame.out.data)[k];
+    }
+    CHECK_MSG(fabs(sum / more - 1) < 0.03, "more suns than room: %.4f", sum / more);
+}
+#endif
 
 static void check_background(void)
 {
@@ -371,7 +501,12 @@ void test_sky(void)
     const lmb_many_lights sky = white_sky();
     check_open(&sky);
     check_sky_only(&sky);
-    check_scales(&sky);
+    check_scales(&sky, LMB_GATHER_ADAPTIVE);
+#if LMB_LIVE
+    check_scales(&sky, LMB_GATHER_LIVE);
+    check_live(&sky);
+    check_other_lights(&sky);
+#endif
     check_wall(&sky);
     check_window(&sky, "a hole of 2 m", 1.0f, 0.03);
     check_window(&sky, "a hole of 0.6 m", 0.3f, 0.12);

@@ -1,7 +1,7 @@
 /* mix_between.c: light of a tile's pixels between those that were traced, weighted by surface. */
 #include "mix_between.h"
 
-#include "../../src/raster/tile.h"
+#include "../common/fvec.h"
 
 /* For each of 8 rows or columns: the fraction of the distance from the first to the last. Both ends are traced, so
  * tiles need no neighbours; where tiles meet, two traced rows meet, so there is no seam. */
@@ -12,6 +12,11 @@ static const float share[LMB_TILE] = {0.0f,        1.0f / 7.0f, 2.0f / 7.0f, 3.0
 #define FLAT     0.3f  /* max height over the other's plane, as a share of the distance */
 #define ENOUGH   0.25f /* min total weight, of 1, of a pixel's corners */
 #define CONTRAST 0.4f  /* max difference of their light, as a share of the brightest */
+
+static lmb_vec3 tile_vec(const float axis[3][LMB_TILE_PIXELS], int k)
+{
+    return vec3(axis[0][k], axis[1][k], axis[2][k]);
+}
 
 /* 0 .. 1: how well pixel s agrees with the surface of pixel k. */
 static float agreement(const lmb_tile *tile, int k, int s)

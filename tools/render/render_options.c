@@ -220,9 +220,9 @@ const option_row render_bounce_rows[] = {
      .help = HELP("full: every pixel; adaptive: every eighth pixel each way, interpolated if surface and light are "
                   "continuous, and denser if the light needs it, or for a smaller --error; live: like adaptive, "
                   "with 64 segments each (draft: 32): the fastest, for moving light. Default: full; from 65,536 "
-                  "pixels on, adaptive under a sky, except with best; and, unless you give --error, --visibility, "
-                  "--tree or a budget, or the scene is a small place in much land, live for --quality draft, for "
-                  "`play` and for many lights, except with best")},
+                  "pixels on, except with best: live for --quality draft, for `play` and for many lights, unless "
+                  "you give --error, --visibility, --tree or a budget, or the scene is a small place in much land; "
+                  "otherwise adaptive under a sky")},
     {.kind = OPTION_END},
 };
 
