@@ -223,6 +223,16 @@ static uint64_t put_object(drawing *d, mix_job *j, const lmb_tile *real, int is_
     return all;
 }
 
+/* Leaves only a share of the darkening. */
+static void soften(lmb_irradiance *inout, const lmb_irradiance *without, float share)
+{
+    for (int32_t i = 0; i < 3 * LMB_TILE_PIXELS; ++i) {
+        float *with = &inout->rgb[i / LMB_TILE_PIXELS][i % LMB_TILE_PIXELS];
+        const float before = without->rgb[i / LMB_TILE_PIXELS][i % LMB_TILE_PIXELS];
+        *with = *with < before ? before + share * (*with - before) : *with;
+    }
+}
+
 static void draw_tile(drawing *d, mix_job *j, int32_t i)
 {
     const lmb_tile *real = &d->batch.real[i];
@@ -233,7 +243,9 @@ static void draw_tile(drawing *d, mix_job *j, int32_t i)
         mix_carry_put_direct(j, real, &d->batch.direct[i]);
     }
     mix_again_light(&d->batch.light[0][i], &d->batch.light[1][i], j, real); /* already includes the lights */
-    lmb_delta_tile(&d->photo, real, &d->batch.light[0][i], &d->batch.light[1][i]);
+    lmb_irradiance with = d->batch.light[1][i];
+    soften(&with, &d->batch.light[0][i], j->darkens);
+    lmb_delta_tile(&d->photo, real, &d->batch.light[0][i], &with);
     if (is_varnished(j, real)) {
         mirror(d, j, real);
     }
