@@ -480,6 +480,61 @@ static void lamp_is_by_falloff(void)
     }
 }
 
+/* If the light is unknown, places that see half of it blocked darken less, and those that see nothing darken in full. */
+static void unknown_light_darkens_less(void)
+{
+    char *object[] = {"--object", square, "--at", "48,62", "--scale", "0.3", "--quiet"};
+    float *first = calloc(3 * PIXELS, sizeof *first);
+    int darker = 0, wrong = 0;
+    for (int i = 0; i < 2 && first != NULL; ++i) {
+        mix_job *j = begin(object, 7);
+        report r = {""};
+        set_depth(j, 2.5f, 1);
+        CHECK_MSG(place(j) && mix_light(j, &r) && j->darkens == 0.5f, "%s %g", r.text, (double)j->darkens);
+        j->darkens = i == 0 ? 1.0f : 0.5f;
+        CHECK_MSG(mix_voxels(j, &r) && mix_draw(j, &r), "%s", r.text);
+        for (int k = 0; k < 3 * PIXELS; ++k) {
+            const float blocked = 1.0f - first[k] / GREY, left = 1.0f - j->picture.pixels[k] / GREY;
+            darker += i == 1 && blocked > 0.02f && j->picture.pixels[k] < GREY;
+            wrong += i == 1 && blocked > 0.02f && j->picture.pixels[k] < GREY && j->picture.pixels[k] != first[k] &&
+                     fabsf(left - blocked * (0.5f + 0.5f * blocked)) > 1e-3f;
+            first[k] = j->picture.pixels[k];
+        }
+        mix_job_free(j);
+    }
+    CHECK_MSG(first != NULL && darker > 300 && wrong == 0, "%d of %d", wrong, darker);
+    free(first);
+}
+
+/* A pose whose world has +Y down, as some data sets have: the object stood on the ceiling. */
+static void worlds_may_be_upside_down(void)
+{
+    for (int i = 0; i < 3; ++i) { /* +Y is down, up, and ahead */
+        static const float y[3][3] = {{0, 1, 0}, {0, -1, 0}, {0, 0, 1}};
+        mix_job *j = begin(NULL, 0);
+        report r = {""};
+        set_depth(j, 2.5f, 1);
+        for (int k = 0; k < PIXELS; ++k) {
+            const lmb_vec3 ray = lmb_cloud_ray(&camera, (float)(k % WIDTH), (float)(k / WIDTH));
+            j->frame.depth[k] = fminf(j->frame.depth[k], ray.y > 0.01f ? 0.5f / ray.y : 1e9f);
+        }
+        j->frame.has_pose = 1;
+        memset(j->frame.pose, 0, sizeof j->frame.pose);
+        for (int c = 0; c < 3; ++c) { /* rows: the world's axes, by the camera's right, down and ahead */
+            const float z[3] = {0, i < 2 ? 0.0f : 1.0f, i < 2 ? y[i][1] : 0.0f};
+            j->frame.pose[c] = c == 0;
+            j->frame.pose[4 + c] = (double)y[i][c];
+            j->frame.pose[8 + c] = (double)z[c];
+        }
+        CHECK_MSG(mix_find_planes(j, &r), "%s", r.text);
+        const lmb_vec3 up = mix_up(j);
+        const int32_t floor = mix_floor(j);
+        CHECK_MSG(up.y > 0.99f && floor >= 0 && j->planes.plane[floor].normal.y > 0.99f, "%d: up is %g %g %g", i,
+                  (double)up.x, (double)up.y, (double)up.z);
+        mix_job_free(j);
+    }
+}
+
 /* If the object hangs on a wall, the sun is in front of the wall. */
 static void sun_is_before_walls(void)
 {
@@ -949,6 +1004,8 @@ void test_mix(void)
     around_darkens();
     sun_is_by_shadows();
     lamp_is_by_falloff();
+    unknown_light_darkens_less();
+    worlds_may_be_upside_down();
     sun_is_before_walls();
     no_light_is_none();
     specks_are_no_plane();

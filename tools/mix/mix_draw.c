@@ -223,13 +223,17 @@ static uint64_t put_object(drawing *d, mix_job *j, const lmb_tile *real, int is_
     return all;
 }
 
-/* Leaves only a share of the darkening. */
+/* Leaves a share of the darkening, and more if nearly all light is blocked: at a contact the direction of the light does
+ * not matter. */
 static void soften(lmb_irradiance *inout, const lmb_irradiance *without, float share)
 {
     for (int32_t i = 0; i < 3 * LMB_TILE_PIXELS; ++i) {
         float *with = &inout->rgb[i / LMB_TILE_PIXELS][i % LMB_TILE_PIXELS];
         const float before = without->rgb[i / LMB_TILE_PIXELS][i % LMB_TILE_PIXELS];
-        *with = *with < before ? before + share * (*with - before) : *with;
+        if (*with < before) {
+            const float blocked = (before - *with) / before;
+            *with = before * (1.0f - blocked * (share + (1.0f - share) * blocked));
+        }
     }
 }
 
