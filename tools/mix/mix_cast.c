@@ -307,7 +307,7 @@ static lmb_vec3 way(int32_t i)
 
 /* --- a lamp ------------------------------------------------------------------------------------------------------- */
 
-/* Sets the light that a lamp at `at` sends to the places, relative to a surface `distance` m away that faces it. */
+/* Sets the light that a lamp at `at` sends to the places; 1 is a surface `distance` m away that faces it. */
 static void set_lamp(cast *c, lmb_vec3 at, float distance)
 {
     const int32_t all = c->first[c->j->planes.count];
@@ -356,8 +356,8 @@ static double misfit(const cast *c, int32_t p, double ratio)
 }
 
 /* Returns the share of the places' variance that the light in c->lit explains if each plane has an unknown colour, and
- * all have the same even light. A pattern on one plane can look like a lamp's light, so nearly all of the share must not
- * be of one plane. */
+ * all have the same even light. A pattern on one plane can look like a lamp's light, so a part of the share must be of
+ * other planes. */
 static double fits_even(const cast *c)
 {
     double total = GRAIN * (double)c->first[c->j->planes.count], best = 0.0;
@@ -376,7 +376,7 @@ static double fits_even(const cast *c)
     return best;
 }
 
-/* Returns the squares that the light in c->lit explains if also the even light of each plane is unknown, which gives the
+/* Returns the squares that the light in c->lit explains if the even light of each plane is unknown too, which gives a
  * better direction. *share: the lamp's light on a surface that faces it, relative to the even light. */
 static double fits(const cast *c, double *share)
 {

@@ -223,8 +223,8 @@ static uint64_t put_object(drawing *d, mix_job *j, const lmb_tile *real, int is_
     return all;
 }
 
-/* Leaves a share of the darkening, and more if nearly all light is blocked: at a contact the direction of the light does
- * not matter. */
+/* Leaves a share of the darkening, and more if nearly all light is blocked: at a contact, the direction of the light
+ * does not matter. */
 static void soften(lmb_irradiance *inout, const lmb_irradiance *without, float share)
 {
     for (int32_t i = 0; i < 3 * LMB_TILE_PIXELS; ++i) {

@@ -39,7 +39,8 @@ static int is_across(const mix_job *j, lmb_vec3 up)
 static int told_up(lmb_vec3 *out, const mix_job *j)
 {
     /* Files of some data sets have +Y or +Z down, but few cameras are upside down. */
-    static const float axes[4][3] = {{0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}, upright[4] = {-0.17f, 0.5f, -0.17f, 0.5f};
+    static const float axes[4][3] = {{0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    static const float upright[4] = {-0.17f, 0.5f, -0.17f, 0.5f};
     if (j->o.up == MIX_UP_CAMERA) {
         *out = (lmb_vec3){0, 1, 0};
         return 1;
