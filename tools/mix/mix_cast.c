@@ -1,5 +1,5 @@
-/* mix_cast.c: a sun or a lamp estimated from a photo: dark places on planes that the geometry explains, and brightness
- * that decreases with the distance. */
+/* mix_cast.c: a sun or a near light estimated from a photo: dark places on planes that the geometry explains, and
+ * brightness that decreases with the distance. */
 #include "mix_cast.h"
 
 #include <math.h>
@@ -18,9 +18,9 @@ enum { COLUMNS = 80 /* of places, about */, WAYS = 240, TURNS = 8, RAYS = 16, TE
 #define RED_STOPS  0.5f /* maximum difference from the plane's mean colour: sun and sky differ in blue */
 #define BLUE_STOPS 0.9f
 #define DARKER  3.0    /* stops: a larger step is a picture or a rug, not a shadow */
-#define EVEN    0.95  /* most of a plane's light that a lamp may send */
+#define EVEN    0.95  /* most of a plane's light that a near light may send */
 #define GRAIN   1e-3  /* variance of a place's light that shows nothing */
-#define OTHERS  0.05  /* minimum part of a lamp's light on other planes than one */
+#define OTHERS  0.05  /* minimum part of a near light's light on other planes than one */
 #define BRIGHT  3.0f /* limit of a place's light, relative to the plane's mean */
 #define STOPS   1.5f   /* limit of a place's deviation: pictures on a wall are not shadows */
 
@@ -305,9 +305,9 @@ static lmb_vec3 way(int32_t i)
     return (lmb_vec3){flat * cosf(turn), y, flat * sinf(turn)};
 }
 
-/* --- a lamp ------------------------------------------------------------------------------------------------------- */
+/* --- a near light ------------------------------------------------------------------------------------------------- */
 
-/* Sets the light that a lamp at `at` sends to the places; 1 is a surface `distance` m away that faces it. */
+/* Sets the light that a near light at `at` sends to the places; 1 is a surface `distance` m away that faces it. */
 static void set_lamp(cast *c, lmb_vec3 at, float distance)
 {
     const int32_t all = c->first[c->j->planes.count];
@@ -356,8 +356,8 @@ static double misfit(const cast *c, int32_t p, double ratio)
 }
 
 /* Returns the share of the places' variance that the light in c->lit explains if each plane has an unknown colour, and
- * all have the same even light. A pattern on one plane can look like a lamp's light, so a part of the share must be of
- * other planes. */
+ * all have the same even light. A pattern on one plane can look like such light, so a part of the share must
+ * be of other planes. */
 static double fits_even(const cast *c)
 {
     double total = GRAIN * (double)c->first[c->j->planes.count], best = 0.0;

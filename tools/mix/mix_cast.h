@@ -1,4 +1,4 @@
-/* mix_cast.h: a sun or a lamp estimated from the shadows and the shading in a photo. */
+/* mix_cast.h: a sun or a near light estimated from the shadows and the shading in a photo. */
 #ifndef MIX_CAST_H
 #define MIX_CAST_H
 
@@ -20,7 +20,7 @@ typedef struct mix_lamp {
 
 /* mix_find_cast: searches the upper hemisphere for the sun that best explains dark places on the planes by shadows of
  * the measured geometry; softness of the shadows gives the size of the sun. Then searches the places up to 4 m around
- * `foot`, in scene space, for a lamp. Returns 1, or 0 if memory is short. */
+ * `foot`, in scene space, for a near light. Returns 1, or 0 if memory is short. */
 int mix_find_cast(mix_cast *sun, mix_lamp *lamp, const mix_job *j, lmb_vec3 foot);
 
 #endif

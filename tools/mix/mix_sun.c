@@ -134,8 +134,8 @@ static float brighter(const mix_job *j, lmb_vec3 from, float sun)
 }
 
 /* The share of brightness variance that a sun's shadows must explain: from UNSURE on the sun counts, from SURE on in
- * full; likewise for a lamp, of the variance before the smooth variation is removed. An uncertain sun is WIDE, degrees,
- * and has WEAK times the environment's irradiance. */
+ * full; likewise for a near light, of the variance before the smooth variation is removed. An uncertain sun is WIDE,
+ * degrees, and has WEAK times the environment's irradiance. */
 #define UNSURE      0.2f
 #define SURE        0.3f
 #define LAMP_UNSURE 0.3f
@@ -227,7 +227,7 @@ float mix_guess_sun(lmb_light *out, float *darkens, const mix_job *j)
         j->o.is_quiet,
         "no light given: %s, %.2f as strong as what is around, which is %.2f times as bright as the photo has it%s; "
         "--light sun:0,0,0:%.3f,%.3f,%.3f:%.3f,%.3f,%.3f:%.0f",
-        g.is_lamp      ? "took a lamp from how the photo's light falls off"
+        g.is_lamp      ? "took a near light from how the photo's light falls off"
         : g.sure > 0.0f ? "took a sun from the photo's shadows"
                         : "nothing shows where light comes from, so took a weak one from above and soft shadows",
         (double)g.share, (double)more, more > 1.0f ? "; given by hand, the sun leaves that as in the photo" : "",
