@@ -216,6 +216,12 @@ status 0 relight --world face --world-box -1,-1,-1,1,1,1 --map again.pfm --vecto
 check "a saved transform image gives the same map" cmp quarter.pfm again.pfm
 status 0 relight --world face --world-box -1,-1,-1,1,1,1 --map half.pfm --map-height 16
 check "a map begins at its azimuth" sh -c '! cmp -s "$1" "$2"' sh half.pfm quarter.pfm
+# The lamps of the built-in world are summed apart: with another left edge they went to other pixels.
+for azimuth in -90 45 179; do
+    status 0 relight --world demo --map quarter.pfm --map-height 16 --azimuth $azimuth --save-vectors vectors.pfm
+    status 0 relight --world demo --map again.pfm --vectors vectors.pfm
+    check "relight --vectors moves the lamps of --azimuth $azimuth" cmp quarter.pfm again.pfm
+done
 status 1 relight --world white.pfm --map bad.pfm --vectors white.pfm
 said "no transform image"
 status 2 relight --world white.pfm --map bad.pfm --vectors vectors.pfm --azimuth 0
