@@ -314,7 +314,8 @@ static int load_table(own_table *t, const relight_options *o, report *r)
     int ok = (vectors.channels == 3 && lmb_probe_table_bytes(vectors.width, vectors.height) > 0) ||
              report_fail(r, "%s: no transform image: it has 3 channels, and is 8 .. 512 high, by 8, and twice as wide",
                          o->vectors_in);
-    ok = ok && make_table(t, vectors.height, left_edge(&vectors), r) && take_vectors(&t->table, &vectors, o->vectors_in, r);
+    ok = ok && make_table(t, vectors.height, left_edge(&vectors), r) &&
+         take_vectors(&t->table, &vectors, o->vectors_in, r);
     image_free(&vectors);
     return ok;
 }
