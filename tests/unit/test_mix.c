@@ -426,13 +426,13 @@ static void sun_is_by_shadows(void)
         mix_job *j = begin(object, 7);
         report r = {""};
         lmb_light sun;
-        float darkens = -1.0f;
+        float softens = -1.0f;
         set_block(j, to, has_shadow ? 0.4f : 1.0f);
         for (int k = 0; k < 3 * PIXELS && i == 5; ++k) {
             j->frame.light.pixels[k] *= k / 3 % WIDTH > WIDTH / 2 && k / 3 / WIDTH > 52 ? 0.5f : 1.0f;
         }
         CHECK_MSG(place(j) && mix_light(j, &r), "%s", r.text);
-        const float size = mix_guess_sun(&sun, &darkens, j), cosine = -(sun.direction.x * to.x + sun.direction.y * to.y + sun.direction.z * to.z);
+        const float size = mix_guess_sun(&sun, &softens, j), cosine = -(sun.direction.x * to.x + sun.direction.y * to.y + sun.direction.z * to.z);
         float rgb[3];
         lmb_env_irradiance(rgb, &j->env[0], (lmb_vec3){0, 1, 0});
         const float share = -sun.direction.y * sun.intensity[1] / rgb[1];
@@ -456,7 +456,7 @@ static void lamp_is_by_falloff(void)
         mix_job *j = begin(object, 7);
         report r = {""};
         lmb_light sun;
-        float darkens = -1.0f;
+        float softens = -1.0f;
         set_depth(j, 2.5f, 1);
         for (int k = 0; k < PIXELS; ++k) {
             const lmb_vec3 ray = lmb_cloud_ray(&camera, (float)(k % WIDTH), (float)(k / WIDTH));
@@ -468,14 +468,14 @@ static void lamp_is_by_falloff(void)
             }
         }
         CHECK_MSG(place(j) && mix_light(j, &r), "%s", r.text);
-        const float size = mix_guess_sun(&sun, &darkens, j);
+        const float size = mix_guess_sun(&sun, &softens, j);
         const lmb_vec3 to = {p[0] - j->anchor.x, p[1] - j->anchor.y, p[2] - j->anchor.z};
         const float cosine = -(sun.direction.x * to.x + sun.direction.y * to.y + sun.direction.z * to.z) /
                              sqrtf(to.x * to.x + to.y * to.y + to.z * to.z);
-        CHECK_MSG(i == 3 || (cosine > 0.97f && size < 20.0f && darkens == 1.0f), "%d: cosine %g, %g wide, %g", i,
-                  (double)cosine, (double)size, (double)darkens);
-        CHECK_MSG(i != 3 || (sun.direction.y < -0.99f && size > 40.0f && darkens == 0.5f && j->darkens == 0.5f),
-                  "from %g, %g wide, %g", (double)-sun.direction.y, (double)size, (double)darkens);
+        CHECK_MSG(i == 3 || (cosine > 0.97f && size < 20.0f && softens == 0.0f), "%d: cosine %g, %g wide, %g", i,
+                  (double)cosine, (double)size, (double)softens);
+        CHECK_MSG(i != 3 || (sun.direction.y < -0.99f && size > 40.0f && softens == 0.5f && j->softens == 0.5f),
+                  "from %g, %g wide, %g", (double)-sun.direction.y, (double)size, (double)softens);
         mix_job_free(j);
     }
 }
@@ -490,8 +490,8 @@ static void unknown_light_darkens_less(void)
         mix_job *j = begin(object, 7);
         report r = {""};
         set_depth(j, 2.5f, 1);
-        CHECK_MSG(place(j) && mix_light(j, &r) && j->darkens == 0.5f, "%s %g", r.text, (double)j->darkens);
-        j->darkens = i == 0 ? 1.0f : 0.5f;
+        CHECK_MSG(place(j) && mix_light(j, &r) && j->softens == 0.5f, "%s %g", r.text, (double)j->softens);
+        j->softens = i == 0 ? 0.0f : 0.5f;
         CHECK_MSG(mix_voxels(j, &r) && mix_draw(j, &r), "%s", r.text);
         for (int k = 0; k < 3 * PIXELS; ++k) {
             const float blocked = 1.0f - first[k] / GREY, left = 1.0f - j->picture.pixels[k] / GREY;
@@ -542,10 +542,10 @@ static void sun_is_before_walls(void)
     mix_job *j = begin(object, 5);
     report r = {""};
     lmb_light sun;
-    float darkens = -1.0f;
+    float softens = -1.0f;
     set_depth(j, 2.5f, 0);
     CHECK(place(j) && j->hangs && mix_light(j, &r));
-    mix_guess_sun(&sun, &darkens, j);
+    mix_guess_sun(&sun, &softens, j);
     CHECK_MSG(sun.direction.z < -0.25f && sun.direction.y < -0.25f, "%g %g", (double)sun.direction.y, (double)sun.direction.z);
     mix_job_free(j);
 }
@@ -648,7 +648,7 @@ static void no_number_says_nothing(void)
         mix_job *j = begin(more, 7);
         report r = {""};
         lmb_light sun;
-        float darkens = -1.0f;
+        float softens = -1.0f;
         set_depth(j, 2.5f, 1);
         for (int k = 0; k < 3 * PIXELS; ++k) {
             j->frame.light.pixels[k] = k / 3 / WIDTH < 52 ? 0.3f * GREY : GREY;
@@ -658,7 +658,7 @@ static void no_number_says_nothing(void)
             j->frame.light.pixels[k] = k / 3 % WIDTH >= WIDTH / 2 ? NAN : j->frame.light.pixels[k];
         }
         lmb_env_dim(&j->env[0], &j->env[0], half); /* the guess matched the photo's brightness */
-        mix_guess_sun(&sun, &darkens, j);
+        mix_guess_sun(&sun, &softens, j);
         lmb_env_irradiance(rgb[i], &j->env[0], (lmb_vec3){0, 1, 0});
         mix_job_free(j);
     }

@@ -42,21 +42,15 @@ static void add_cones(lmb_irradiance *inout, const mix_job *j, const lmb_tile *t
  * unevenly, which drew stripes. Points that face down stay, or they would be under the floor. */
 #define RAISED 0.75f
 
-static void raise_points(lmb_tile *out, const mix_job *j, const lmb_tile *tile)
-{
-    *out = *tile;
-    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        const float by = RAISED * j->world->voxels.leaf * fminf(1.0f + tile->face[1][k], 1.0f);
-        for (int c = 0; c < 3 && tile->id[k] != 0; ++c) {
-            out->position[c][k] += by * tile->face[c][k];
-        }
-    }
-}
-
 void mix_cones_tile(lmb_irradiance *inout, const mix_job *j, const lmb_tile *tile)
 {
-    lmb_tile raised;
-    raise_points(&raised, j, tile);
+    lmb_tile raised = *tile;
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const float down = raised.face[1][k] < 0.0f ? raised.face[1][k] : 0.0f;
+        for (int c = 0; c < 3; ++c) {
+            raised.position[c][k] += RAISED * j->world->voxels.leaf * (1.0f + down) * raised.face[c][k];
+        }
+    }
     add_cones(inout, j, &raised, LMB_VOXEL_WITH);
 }
 

@@ -223,20 +223,6 @@ static uint64_t put_object(drawing *d, mix_job *j, const lmb_tile *real, int is_
     return all;
 }
 
-/* Leaves a share of the darkening, and more if nearly all light is blocked: at a contact, the direction of the light
- * does not matter. */
-static void soften(lmb_irradiance *inout, const lmb_irradiance *without, float share)
-{
-    for (int32_t i = 0; i < 3 * LMB_TILE_PIXELS; ++i) {
-        float *with = &inout->rgb[i / LMB_TILE_PIXELS][i % LMB_TILE_PIXELS];
-        const float before = without->rgb[i / LMB_TILE_PIXELS][i % LMB_TILE_PIXELS];
-        if (*with < before) {
-            const float blocked = (before - *with) / before;
-            *with = before * (1.0f - blocked * (share + (1.0f - share) * blocked));
-        }
-    }
-}
-
 static void draw_tile(drawing *d, mix_job *j, int32_t i)
 {
     const lmb_tile *real = &d->batch.real[i];
@@ -247,9 +233,8 @@ static void draw_tile(drawing *d, mix_job *j, int32_t i)
         mix_carry_put_direct(j, real, &d->batch.direct[i]);
     }
     mix_again_light(&d->batch.light[0][i], &d->batch.light[1][i], j, real); /* already includes the lights */
-    lmb_irradiance with = d->batch.light[1][i];
-    soften(&with, &d->batch.light[0][i], j->darkens);
-    lmb_delta_tile(&d->photo, real, &d->batch.light[0][i], &with);
+    lmb_delta_tile(&d->photo, real, &d->batch.light[0][i],
+                   mix_soften(&d->lit, &d->batch.light[1][i], &d->batch.light[0][i], j->softens));
     if (is_varnished(j, real)) {
         mirror(d, j, real);
     }

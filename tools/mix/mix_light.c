@@ -117,7 +117,7 @@ int mix_keep_light(mix_kept *k, const mix_job *j, report *r)
     k->sun = j->sun;
     k->sun.direction = turned(&back, k->sun.direction);
     k->sun_size = j->sun_size;
-    k->darkens = j->darkens;
+    k->softens = j->softens;
     return 1;
 }
 
@@ -297,11 +297,10 @@ int mix_light(mix_job *j, report *r)
     if (!make_env(j, r) || !take_lights(j, r)) {
         return 0;
     }
-    j->darkens = 1.0f;
     if (j->o.light_count > 0) {
         place_lights(j);
     } else if (j->object_triangles > 0 && !j->o.no_light) {
-        j->sun_size = mix_guess_sun(&j->sun, &j->darkens, j);
+        j->sun_size = mix_guess_sun(&j->sun, &j->softens, j);
         if (j->sun_size < 0.0f) {
             return report_fail(r, "out of memory");
         }

@@ -183,21 +183,21 @@ static int guess_of(guess *out, const mix_job *j, lmb_vec3 faces)
 }
 
 /* The sun of a sequence's first frame. */
-static float kept_sun(lmb_light *out, float *darkens, const mix_job *j)
+static float kept_sun(lmb_light *out, float *softens, const mix_job *j)
 {
     const float *m = j->from_world.m;
     const lmb_vec3 d = j->kept->sun.direction;
     *out = j->kept->sun;
     out->direction = (lmb_vec3){m[0] * d.x + m[4] * d.y + m[8] * d.z, m[1] * d.x + m[5] * d.y + m[9] * d.z,
                                 m[2] * d.x + m[6] * d.y + m[10] * d.z};
-    *darkens = j->kept->darkens;
+    *softens = j->kept->softens;
     return j->kept->sun_size;
 }
 
-float mix_guess_sun(lmb_light *out, float *darkens, const mix_job *j)
+float mix_guess_sun(lmb_light *out, float *softens, const mix_job *j)
 {
     if (j->kept != NULL && j->kept->frames > 0 && j->kept->has_sun) {
-        return kept_sun(out, darkens, j);
+        return kept_sun(out, softens, j);
     }
     float around[3];
     guess g;
@@ -218,7 +218,7 @@ float mix_guess_sun(lmb_light *out, float *darkens, const mix_job *j)
     out->kind = LMB_LIGHT_DIRECTIONAL;
     out->direction = (lmb_vec3){-from.x, -from.y, -from.z};
     out->cos_inner = out->cos_outer = 1.0f;
-    *darkens = g.sure + (1.0f - g.sure) * DARKENS;
+    *softens = (1.0f - g.sure) * (1.0f - DARKENS);
     lmb_env_irradiance(around, &j->env[0], faces);
     for (int c = 0; c < 3; ++c) {
         out->intensity[c] = g.share * around[c];
@@ -234,4 +234,19 @@ float mix_guess_sun(lmb_light *out, float *darkens, const mix_job *j)
         (double)way.x, (double)way.y, (double)way.z, (double)out->intensity[0], (double)out->intensity[1],
         (double)out->intensity[2], (double)g.size);
     return g.size;
+}
+
+const lmb_irradiance *mix_soften(lmb_irradiance *room, const lmb_irradiance *with, const lmb_irradiance *without,
+                                 float softens)
+{
+    *room = *with;
+    for (int32_t i = 0; i < 3 * LMB_TILE_PIXELS; ++i) {
+        float *left = &room->rgb[i / LMB_TILE_PIXELS][i % LMB_TILE_PIXELS];
+        const float before = without->rgb[i / LMB_TILE_PIXELS][i % LMB_TILE_PIXELS];
+        if (*left < before) {
+            const float blocked = (before - *left) / before;
+            *left = before * (1.0f - blocked * (1.0f - softens * (1.0f - blocked)));
+        }
+    }
+    return room;
 }

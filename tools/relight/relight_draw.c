@@ -56,6 +56,16 @@ typedef struct stage {
     double done, all; /* places of the path */
 } stage;
 
+/* Metres between the eyes; 0: one eye. */
+static float eyes_apart(const stage *s)
+{
+#if defined(OPTIONS_WITHOUT_HELP) /* the web page draws one */
+    return (void)s, 0.0f;
+#else
+    return s->o->stereo_m;
+#endif
+}
+
 static void *take(size_t bytes, report *r)
 {
     void *p = malloc(bytes > 0 ? bytes : 1);
@@ -258,7 +268,7 @@ static int draw_eye(stage *s, report *r)
         for (size_t k = 0; s->one != NULL && k < numbers; ++k) {
             s->picture.pixels[k] = (i > 0 ? s->picture.pixels[k] : 0.0f) + weight * s->one[k];
         }
-        s->done += (s->both.pixels != NULL ? 0.5 : 1.0) / (double)s->samples;
+        s->done += (eyes_apart(s) > 0.0f ? 0.5 : 1.0) / (double)s->samples;
     }
     return status == LMB_OK || report_fail(r, "%s: drawing stopped: %s", s->o->object, lmb_status_name(status));
 }
@@ -270,8 +280,8 @@ static int draw(stage *s, report *r)
         return 0;
     }
     const size_t row = 3 * (size_t)s->picture.width;
-    for (int eye = 0; eye < 2 && s->both.pixels != NULL; ++eye) {
-        s->relight.view = view_from(&s->middle, s->o->stereo_m * ((float)eye - 0.5f), &s->figures.scene);
+    for (int eye = 0; eye < 2 && eyes_apart(s) > 0.0f; ++eye) {
+        s->relight.view = view_from(&s->middle, eyes_apart(s) * ((float)eye - 0.5f), &s->figures.scene);
         if (!draw_eye(s, r)) {
             return 0;
         }
@@ -279,13 +289,13 @@ static int draw(stage *s, report *r)
             memcpy(s->both.pixels + (2 * y + (size_t)eye) * row, s->picture.pixels + y * row, row * sizeof(float));
         }
     }
-    return s->both.pixels != NULL || draw_eye(s, r);
+    return eyes_apart(s) > 0.0f || draw_eye(s, r);
 }
 
 /* Writes a picture. All pictures use the exposure of the first. */
 static int write(stage *s, const char *path, report *r)
 {
-    image *picture = s->both.pixels != NULL ? &s->both : &s->picture;
+    image *picture = eyes_apart(s) > 0.0f ? &s->both : &s->picture;
     if (s->o->into != NULL) {
         *s->o->into = *picture;
         picture->pixels = NULL;
@@ -371,7 +381,9 @@ static int take_view(stage *s, report *r)
         return 0;
     }
     l->view.near_m = v->near_m;
-    s->middle = l->view;
+    if (eyes_apart(s) > 0.0f) {
+        s->middle = l->view;
+    }
     l->view = view_from(&l->view, 0.0f, scene);
     return 1;
 }
@@ -394,7 +406,7 @@ static int take_frame(stage *s, report *r)
     s->picture.width = w;
     s->picture.height = h;
     s->picture.channels = 3;
-    if (s->o->stereo_m > 0.0f) {
+    if (eyes_apart(s) > 0.0f) {
         s->both = s->picture;
         s->both.width = 2 * w;
         s->both.pixels = take(2 * (size_t)w * (size_t)h * 3 * sizeof(float), r);
@@ -426,7 +438,7 @@ static int run(stage *s, report *r)
 {
     const relight_options *o = s->o;
     s->all = 1.0;
-    if (o->stereo_m > 0.0f && 2 * o->view.width > LMB_MAX_SIDE) {
+    if (eyes_apart(s) > 0.0f && 2 * o->view.width > LMB_MAX_SIDE) {
         return report_fail_usage(r, "--stereo: two views of %d px are wider than %d; try a smaller --size",
                                  (int)o->view.width, LMB_MAX_SIDE);
     }
@@ -481,7 +493,9 @@ static void stage_free(stage *s)
     free(s->depth_memory);
     free(s->id_memory);
     image_free(&s->picture);
-    image_free(&s->both);
+    if (eyes_apart(s) > 0.0f) {
+        image_free(&s->both);
+    }
     contact_free(&s->contact);
     ground_lights_free(&s->ground);
     place_list_free(&s->path);
