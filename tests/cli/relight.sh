@@ -32,6 +32,19 @@ check "glossy alone is darker than both" sh -c '"$1" compare "$2" "$3" --json | 
 status 0 $field --backend scalar -o field-scalar.pfm
 check "a backend changes the field" cmp field-both.pfm field-scalar.pfm
 status 0 $field --at 3,0,1 --roughness 0 --f0 0.9 --per-part --light sun:0,0,0:-1,-1,0:2,2,2 --cube cube.pfm -o field.png
+# Two eyes: each half has the bytes of one eye there.
+eyes="relight --world demo --object demo --size 48x24 --exposure 0 --at 1,0,2"
+status 0 $eyes --eye 0,2.3,8.4 --target 0,0.9,0 --stereo 0.3 -o both.ppm
+status 0 $eyes --eye -0.15,2.3,8.4 --target -0.15,0.9,0 -o left.ppm
+status 0 $eyes --eye 0.15,2.3,8.4 --target 0.15,0.9,0 -o right.ppm
+for eye in left right; do
+    tail -c 3456 $eye.ppm | od -An -v -tx1 -w144 >one.txt
+    tail -c 6912 both.ppm | od -An -v -tx1 -w144 | sed -n "$(test $eye = left && echo 'p;n' || echo 'n;p')" >half.txt
+    check "relight --stereo: the $eye eye" cmp one.txt half.txt
+done
+check "relight --stereo: the eyes differ" sh -c '! cmp -s left.ppm right.ppm'
+status 2 $eyes --stereo 0 -o both.ppm
+status 2 $eyes --size 5000x8 --stereo 0.3 -o both.ppm
 printf '# a walk\n0,0,0\n0.1,0,0\n\n 1,0,0 \n1,0,0' >path.txt
 status 0 $field --path path.txt -o walk.ppm
 check "a walk keeps its light while it is near" grep -q '^light computed 2 times, kept 2 times$' out.txt
@@ -203,6 +216,12 @@ status 0 relight --world face --world-box -1,-1,-1,1,1,1 --map again.pfm --vecto
 check "a saved transform image gives the same map" cmp quarter.pfm again.pfm
 status 0 relight --world face --world-box -1,-1,-1,1,1,1 --map half.pfm --map-height 16
 check "a map begins at its azimuth" sh -c '! cmp -s "$1" "$2"' sh half.pfm quarter.pfm
+# The lamps of the built-in world are summed apart: with another left edge they went to other pixels.
+for azimuth in -90 45 179; do
+    status 0 relight --world demo --map quarter.pfm --map-height 16 --azimuth $azimuth --save-vectors vectors.pfm
+    status 0 relight --world demo --map again.pfm --vectors vectors.pfm
+    check "relight --vectors moves the lamps of --azimuth $azimuth" cmp quarter.pfm again.pfm
+done
 status 1 relight --world white.pfm --map bad.pfm --vectors white.pfm
 said "no transform image"
 status 2 relight --world white.pfm --map bad.pfm --vectors vectors.pfm --azimuth 0

@@ -202,7 +202,11 @@ def error(a, b, pixels):
 
 
 def make_room(seed, white):
-    """By turns a point light, a spot, a window beside the camera, outdoors. Returns the way to the light last."""
+    """By turns a point light, a spot, a window beside the camera, outdoors.
+
+    Returns the scene, the object's materials, the camera, options of lights, the way to the light, the generator, and
+    whether the object is inside a box or a ball, as no real one can be.
+    """
     r = random.Random(seed)
     u, scene, kind = r.uniform, Scene(), seed % 4
     floor = scene.material((u(.2, .6), u(.2, .55), u(.15, .5)))
@@ -213,19 +217,23 @@ def make_room(seed, white):
         scene.box(wall, (-1, 0, -1.3), (w + 1, u(1, 2.5), -.9))
     else:
         scene.room(floor, wall, ceiling, w, h, d)
+    taken = []  # x, z and radius of things
     for _ in range(r.randint(2, 5)):
         m, x, z = scene.material(tuple(u(.08, .65) for _ in range(3))), u(.5, w - .6), u(.4, .55 * d)
         if u(0, 1) < .3:
             radius = u(.12, .28)
             scene.ball(m, (x, radius, z), radius, 12)
+            taken.append((x, z, radius))
         else:
             a, b, c = u(.2, .6), u(.2, .8), u(.2, .6)
+            taken.append((x, z, .5 * math.hypot(a, c)))
             scene.box(m, (x - a / 2, 0, z - c / 2), (x + a / 2, b, z + c / 2), u(0, 90))
     if u(0, 1) < .4:  # a rug
         m, x, z = scene.material(tuple(u(.1, .6) for _ in range(3))), u(.6, w - 1.5), u(.8, .5 * d)
         scene.quad(m, (x, .002, z), (x, .002, z + u(.5, 1)), (x + 1, .002, z + 1), (x + u(.6, 1), .002, z))
     eye, target = (u(.6, .85) * w, u(1.2, 1.7), u(.85, .95) * d), (u(.35, .55) * w, .35, .35 * d)
     fov, thing, x, z = u(46, 58), scene.material((.5, .45, .4)), u(.4, .6) * w, u(.45, .6) * d
+    inside = any(math.hypot(x - p[0], z - p[1]) < p[2] + .1 for p in taken)
     shape = r.randint(0, 2)
     if shape == 0:
         scene.box(thing, (x - .12, 0, z - .1), (x + .12, u(.2, .35), z + .1), u(0, 90))
@@ -262,7 +270,7 @@ def make_room(seed, white):
         light = ["--light", "sun:0,0,0:%s:%g,%g,%g:%g" % (text(way), watts, watts * .97, watts * .9, u(.5, 4)),
                  "--world", white, "--ground", "none"]
     to = unit(minus(at, (x, .1, z))) if at else tuple(-v for v in way)
-    return scene, [thing], (fov, eye, target), light, to, r
+    return scene, [thing], (fov, eye, target), light, to, r, inside
 
 
 def add_noise(base, r):
@@ -292,8 +300,11 @@ def rooms(tool, folder, first, past):
     write_pfm(white, 8, 4, 3, [.6, .7, .9] * 32)
     for seed in range(first, past):
         base = os.path.join(folder, str(seed))
-        scene, things, camera, light, to, r = make_room(seed, white)
-        draw(tool, base, scene, things, camera, light, "default")
+        scene, things, camera, light, to, r, inside = make_room(seed, white)
+        if inside:
+            print("%d: left out, the object is inside a thing" % seed, flush=True)
+            continue
+        draw(tool, base, scene, things, camera, light, "best")  # less leaves 0.01 to 0.13 of noise in the truth
         clean = add_noise(base, r)
         said = run(tool, "mix", "--frame", base, "--object", base + ".object.gltf", "--at", "world", "--voxels", 6,
                    "-o", base + ".mixed.pfm")

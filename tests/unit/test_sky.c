@@ -397,7 +397,7 @@ static void check_live(const lmb_many_lights *sky)
             off += (double)((picture[0][k] - picture[1][k]) * (picture[0][k] - picture[1][k]));
         }
         off = sqrt(off * 3 * WIDE * HIGH) / whole;
-        CHECK_MSG(fabs(live / whole - 1) < 0.03 && off < 0.12, "live light of a sky, %d: %.4f of it, rmse %.4f", i,
+        CHECK_MSG(fabs(live / whole - 1) < 0.03 && off < 0.14, "live light of a sky, %d: %.4f of it, rmse %.4f", i,
                   live / whole, off);
     }
     memcpy(picture[0], picture[1], sizeof picture[0]);

@@ -1,4 +1,5 @@
-/* mix_cast.c: a sun estimated from the cast shadows in a photo: dark places on planes that the geometry explains. */
+/* mix_cast.c: a sun or a near light estimated from a photo: dark places on planes that the geometry explains, and
+ * brightness that decreases with the distance. */
 #include "mix_cast.h"
 
 #include <math.h>
@@ -17,13 +18,17 @@ enum { COLUMNS = 80 /* of places, about */, WAYS = 240, TURNS = 8, RAYS = 16, TE
 #define RED_STOPS  0.5f /* maximum difference from the plane's mean colour: sun and sky differ in blue */
 #define BLUE_STOPS 0.9f
 #define DARKER  3.0    /* stops: a larger step is a picture or a rug, not a shadow */
+#define EVEN    0.95  /* most of a plane's light that a near light may send */
+#define GRAIN   1e-3  /* variance of a place's light that shows nothing */
+#define OTHERS  0.05  /* minimum part of a near light's light on other planes than one */
+#define BRIGHT  3.0f /* limit of a place's light, relative to the plane's mean */
 #define STOPS   1.5f   /* limit of a place's deviation: pictures on a wall are not shadows */
 
 /* A place on a plane: the deviation of the light from the plane's other places, in stops, with smooth variation
  * removed. */
 typedef struct place {
     lmb_vec3 at, normal;
-    float depth, light;
+    float depth, light, plain; /* plain: linear, relative to the plane's mean */
     float term[TERMS]; /* orthonormal basis of the smooth variation over the plane */
 } place;
 
@@ -35,6 +40,7 @@ typedef struct cast {
     float *lit;  /* by place: visible share of the tested sun, 0 .. 1 */
     float *open; /* by place: visible share of the sky, 0 .. 1; later without the smooth variation */
     int32_t first[LMB_MAX_PLANES + 1];
+    double even[LMB_MAX_PLANES]; /* by plane: squared differences from even light */
     lmb_traversal traversal;
     double total; /* sum of squared light deviations */
 } cast;
@@ -137,6 +143,7 @@ static int32_t add_plane(cast *c, int32_t p, int32_t n)
             to->normal = normal;
             to->depth = 1.0f / j->cloud.inverse[at];
             to->light = log2f(light);
+            to->plain = light;
             memcpy(to->term, term, sizeof term);
         }
     }
@@ -180,6 +187,18 @@ static void flatten(float *value, size_t stride, const place *p, int32_t n)
     }
 }
 
+/* Divides by the plane's mean. */
+static void level(place *p, int32_t n)
+{
+    double sum = 0.0;
+    for (int32_t i = 0; i < n; ++i) {
+        sum += (double)p[i].plain;
+    }
+    for (int32_t i = 0; i < n; ++i) {
+        p[i].plain = fminf(p[i].plain * (float)((double)n / sum), BRIGHT);
+    }
+}
+
 static void find_places(cast *c)
 {
     int32_t n = 0;
@@ -193,6 +212,7 @@ static void find_places(cast *c)
         if (count > 0) {
             flatten(&here->light, sizeof *here / sizeof(float), here, count);
         }
+        level(here, count);
         for (int32_t i = 0; i < count; ++i) {
             here[i].light = fminf(fmaxf(here[i].light, -STOPS), STOPS);
             c->total += (double)(here[i].light * here[i].light);
@@ -278,14 +298,154 @@ static double explain(cast *c, lmb_vec3 to, float size, double *stops, int is_fi
     return sum;
 }
 
-/* --- the search --------------------------------------------------------------------------------------------------- */
-
 static lmb_vec3 way(int32_t i)
 {
     const float y = LOWEST + (0.995f - LOWEST) * ((float)i + 0.5f) / WAYS, flat = sqrtf(1.0f - y * y),
                 turn = 2.3999632f * (float)i;
     return (lmb_vec3){flat * cosf(turn), y, flat * sinf(turn)};
 }
+
+/* --- a near light ------------------------------------------------------------------------------------------------- */
+
+/* Sets the light that a near light at `at` sends to the places; 1 is a surface `distance` m away that faces it. */
+static void set_lamp(cast *c, lmb_vec3 at, float distance)
+{
+    const int32_t all = c->first[c->j->planes.count];
+    for (int32_t i = 0; i < all; i += LMB_TILE_PIXELS) {
+        lmb_tile tile;
+        uint64_t asked = 0;
+        float sent[LMB_TILE_PIXELS] = {0};
+        memset(&tile, 0, sizeof tile);
+        for (int32_t k = 0; k < LMB_TILE_PIXELS && i + k < all; ++k) {
+            const place *p = &c->all[i + k];
+            const lmb_vec3 to = plus(at, p->at, -1.0f);
+            const float from[3] = {p->at.x, p->at.y, p->at.z}, d2 = fmaxf(dot(to, to), 1e-4f);
+            for (int a = 0; a < 3; ++a) {
+                tile.position[a][k] = from[a];
+            }
+            tile.depth[k] = p->depth;
+            tile.id[k] = 1;
+            sent[k] = dot(to, p->normal) * distance * distance / (d2 * sqrtf(d2));
+            asked |= (uint64_t)(sent[k] > 0.0f) << k;
+        }
+        const float noise = lmb_tile_noise(&tile, asked) + lmb_place_noise(at, 0.0f);
+        const uint64_t seen =
+            asked & ~(asked != 0 ? lmb_occluded_tile(c->j->o.kernels, &c->traversal, &c->bvh, &tile, asked, at, noise)
+                                 : 0);
+        for (int32_t k = 0; k < LMB_TILE_PIXELS && i + k < all; ++k) {
+            c->lit[i + k] = (seen >> k & 1u) != 0 ? sent[k] : 0.0f;
+        }
+    }
+}
+
+/* Returns the squared differences of a plane's places from even light plus `ratio` times the light in c->lit. */
+static double misfit(const cast *c, int32_t p, double ratio)
+{
+    const int32_t n = c->first[p + 1] - c->first[p];
+    const place *here = c->all + c->first[p];
+    const float *lit = c->lit + c->first[p];
+    double mean = 0.0, sum = 0.0;
+    for (int32_t i = 0; i < n; ++i) {
+        mean += (1.0 + ratio * (double)lit[i]) / n;
+    }
+    for (int32_t i = 0; i < n; ++i) {
+        const double off = (double)here[i].plain - (1.0 + ratio * (double)lit[i]) / mean;
+        sum += off * off;
+    }
+    return sum;
+}
+
+/* Returns the share of the places' variance that the light in c->lit explains if each plane has an unknown colour, and
+ * all have the same even light. A pattern on one plane can look like such light, so a part of the share must
+ * be of other planes. */
+static double fits_even(const cast *c)
+{
+    double total = GRAIN * (double)c->first[c->j->planes.count], best = 0.0;
+    for (int32_t p = 0; p < c->j->planes.count; ++p) {
+        total += c->even[p];
+    }
+    for (double ratio = 0.25; ratio < 20.0; ratio *= 2.0) {
+        double sum = 0.0, largest = 0.0;
+        for (int32_t p = 0; p < c->j->planes.count; ++p) {
+            const double by = c->even[p] - misfit(c, p, ratio);
+            sum += by;
+            largest = fmax(largest, by);
+        }
+        best = fmax(best, fmin(sum, (sum - largest) / OTHERS) / total);
+    }
+    return best;
+}
+
+/* Returns the squares that the light in c->lit explains if the even light of each plane is unknown too, which gives a
+ * better direction. *share: the lamp's light on a surface that faces it, relative to the even light. */
+static double fits(const cast *c, double *share)
+{
+    double sum = 0.0, lamp = 0.0, even = 1e-9;
+    for (int32_t p = 0; p < c->j->planes.count; ++p) {
+        const int32_t n = c->first[p + 1] - c->first[p];
+        const place *here = c->all + c->first[p];
+        const float *lit = c->lit + c->first[p];
+        double x = 0.0, xx = 0.0, xy = 0.0;
+        for (int32_t i = 0; i < n; ++i) {
+            x += (double)lit[i] / n;
+        }
+        for (int32_t i = 0; i < n; ++i) {
+            const double dx = (double)lit[i] - x;
+            xx += dx * dx;
+            xy += dx * ((double)here[i].plain - 1.0);
+        }
+        if (xy > 0.0 && xx > 1e-9) {
+            const double by = fmin(xy / xx, EVEN / fmax(x, 1e-9)); /* the rest is even light */
+            sum += 2.0 * by * xy - by * by * xx;
+            lamp += by * by * xx;
+            even += by * (1.0 - by * x) * xx;
+        }
+    }
+    *share = lamp / even;
+    return sum;
+}
+
+/* Keeps the lamp at `at` if it explains more than the best one so far. */
+static void try_lamp(mix_lamp *out, double *best, lmb_vec3 *best_at, cast *c, lmb_vec3 at, lmb_vec3 foot)
+{
+    const lmb_vec3 to = plus(at, foot, -1.0f);
+    const float distance = sqrtf(dot(to, to));
+    if (!(to.y > LOWEST * distance)) {
+        return;
+    }
+    double share = 0.0;
+    set_lamp(c, at, distance);
+    const double by = fits(c, &share);
+    if (by > *best) {
+        *best = by;
+        *best_at = at;
+        *out = (mix_lamp){unit(to), (float)share, (float)fits_even(c)};
+    }
+}
+
+static void find_lamp(mix_lamp *out, cast *c, lmb_vec3 foot)
+{
+    static const float far[] = {0.7f, 1.0f, 1.4f, 2.0f, 2.8f, 4.0f};
+    static const float off[6][3] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    lmb_vec3 at = foot;
+    double best = 0.0;
+    for (int32_t p = 0; p < c->j->planes.count; ++p) {
+        c->even[p] = misfit(c, p, 0.0);
+    }
+    for (int32_t i = 0; i < WAYS; i += 3) {
+        for (size_t k = 0; k < sizeof far / sizeof *far; ++k) {
+            try_lamp(out, &best, &at, c, plus(foot, way(i), far[k]), foot);
+        }
+    }
+    for (float step = 0.3f; step > 0.04f && best > 0.0; step *= 0.5f) {
+        const lmb_vec3 from = at;
+        for (int32_t i = 0; i < 6; ++i) {
+            try_lamp(out, &best, &at, c, plus(from, (lmb_vec3){off[i][0], off[i][1], off[i][2]}, step), foot);
+        }
+    }
+}
+
+/* --- the search --------------------------------------------------------------------------------------------------- */
 
 static void search(mix_cast *out, cast *c, double *best)
 {
@@ -376,14 +536,15 @@ static int build_bvh(cast *c)
            lmb_bvh_build(&c->bvh, &real) == LMB_OK;
 }
 
-int mix_find_cast(mix_cast *out, const mix_job *j)
+int mix_find_cast(mix_cast *sun, mix_lamp *lamp, const mix_job *j, lmb_vec3 foot)
 {
     cast *c = calloc(1, sizeof *c);
     const int32_t step = step_of(j);
     const size_t cap = (size_t)(j->frame.camera.width / step + 1) * (size_t)(j->frame.camera.height / step + 1);
     int ok = c != NULL;
-    memset(out, 0, sizeof *out);
-    out->to = (lmb_vec3){0, 1, 0};
+    memset(sun, 0, sizeof *sun);
+    memset(lamp, 0, sizeof *lamp);
+    sun->to = lamp->to = (lmb_vec3){0, 1, 0};
     if (ok && j->real_triangles > 0) {
         c->j = j;
         c->all = malloc(cap * sizeof *c->all);
@@ -392,7 +553,8 @@ int mix_find_cast(mix_cast *out, const mix_job *j)
         ok = c->all != NULL && c->lit != NULL && c->open != NULL && build_bvh(c);
         if (ok) {
             find_places(c);
-            measure(out, c);
+            measure(sun, c);
+            find_lamp(lamp, c, foot);
         }
         free(c->all);
         free(c->lit);

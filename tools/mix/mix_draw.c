@@ -233,7 +233,8 @@ static void draw_tile(drawing *d, mix_job *j, int32_t i)
         mix_carry_put_direct(j, real, &d->batch.direct[i]);
     }
     mix_again_light(&d->batch.light[0][i], &d->batch.light[1][i], j, real); /* already includes the lights */
-    lmb_delta_tile(&d->photo, real, &d->batch.light[0][i], &d->batch.light[1][i]);
+    lmb_delta_tile(&d->photo, real, &d->batch.light[0][i],
+                   mix_soften(&d->lit, &d->batch.light[1][i], &d->batch.light[0][i], j->softens));
     if (is_varnished(j, real)) {
         mirror(d, j, real);
     }

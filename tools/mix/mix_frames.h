@@ -39,7 +39,7 @@ typedef struct mix_kept {
     int32_t tracks, floor;  /* floor: the track of the plane under the object, or -1 */
     int has_sun;
     lmb_light sun;          /* guessed at the first frame */
-    float sun_size;
+    float sun_size, softens;
     lmb_env env;            /* environment of the first frame */
     void *env_memory;
     mix_depth depth;

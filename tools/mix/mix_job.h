@@ -99,6 +99,7 @@ typedef struct mix_job {
     lmb_light *lights;         /* MIX_LIGHT_SAMPLES for each with a size, MIX_SUN_SAMPLES for a guessed sun */
     lmb_light sun;             /* if none is given, in scene space */
     float sun_size;
+    float softens;             /* share of the darkening that is left out: 0, or more if the light is unknown */
     lmb_shadow_map (*maps)[2]; /* of each: without, with */
     int32_t light_count, lamp_count; /* the last lamp_count lights are the object's own and exist only with it */
     struct mix_sources *sources; /* the object's own light sources; NULL: none */
@@ -135,10 +136,16 @@ int mix_light(mix_job *j, report *r);       /* environment, lights and shadow ma
 int mix_voxels(mix_job *j, report *r);      /* albedo of real surfaces, and bounced light around the object */
 int mix_draw(mix_job *j, report *r);        /* the picture */
 
-/* mix_guess_sun: a sun for a photo without given lights. It is estimated from shadows in the photo (mix_cast.h). If
- * there are none, it is wide, weak and overhead. The environment is scaled so that the photo's brightest surfaces are
- * at most white. A sequence keeps the first sun. Returns the sun's size, degrees, or -1 if memory is short. */
-float mix_guess_sun(lmb_light *out, const mix_job *j);
+/* mix_guess_sun: a sun for a photo without given lights. It is estimated from shadows in the photo, or from the way in
+ * which brightness decreases (mix_cast.h). If neither shows a light, it is wide, weak and overhead, and *softens is
+ * over 0. The environment is scaled so that the photo's brightest surfaces are at most white. A sequence keeps the
+ * first sun. Returns the sun's size, degrees, or -1 if memory is short. */
+float mix_guess_sun(lmb_light *out, float *softens, const mix_job *j);
+
+/* mix_soften: `with`, without the share `softens` of the darkening, but less of it is left out if nearly all light is
+ * blocked: at a contact, the direction of the light does not matter. `room` holds the result. */
+const lmb_irradiance *mix_soften(lmb_irradiance *room, const lmb_irradiance *with, const lmb_irradiance *without,
+                                 float softens);
 
 /* mix_up: the up direction, unit, in camera space: --up; or +Y, else +Z, of the pose's world if a plane lies across it;
  * or the direction that the planes agree on. mix_floor: the largest plane that faces up, or -1. */

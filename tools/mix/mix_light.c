@@ -117,6 +117,7 @@ int mix_keep_light(mix_kept *k, const mix_job *j, report *r)
     k->sun = j->sun;
     k->sun.direction = turned(&back, k->sun.direction);
     k->sun_size = j->sun_size;
+    k->softens = j->softens;
     return 1;
 }
 
@@ -299,7 +300,7 @@ int mix_light(mix_job *j, report *r)
     if (j->o.light_count > 0) {
         place_lights(j);
     } else if (j->object_triangles > 0 && !j->o.no_light) {
-        j->sun_size = mix_guess_sun(&j->sun, j);
+        j->sun_size = mix_guess_sun(&j->sun, &j->softens, j);
         if (j->sun_size < 0.0f) {
             return report_fail(r, "out of memory");
         }

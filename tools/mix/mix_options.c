@@ -119,8 +119,8 @@ static const option_row light_rows[] = {
      .help = HELP("KIND is spot, point or sun: place, direction, W/sr or W/m2, degrees of a spot's cones. SIZE "
              "makes shadows soft: the light's width in m, or a sun's in degrees. All in the frame's world, or "
              "without a pose the camera's (x right, y up, -z ahead). A photo's white is 1 W/(m2 sr). none: only the "
-             "environment lights the object. Default: a sun estimated from the photo's own shadows, or if there are "
-             "none, a weak one from above")},
+             "environment lights the object. Default: a sun or lamp estimated from the photo's shadows and "
+             "shading; if these show none, a weak light from above, and the object darkens half as much")},
     {.name = "--world", .value = "FILE", .kind = OPTION_TEXT, AT(world), .file = OPTION_READS,
      .help = HELP("the environment, a panorama or cube (default: folded from the photo)")},
     {.name = "--roughness", .value = "R[,F]", .kind = OPTION_OWN, .parse = parse_roughness,

@@ -1,4 +1,4 @@
-/* mix_sun.c: a sun for a photo without given lights: estimated from shadows, or a weak default. */
+/* mix_sun.c: a light for a photo without given ones: estimated from shadows or shading, or a weak default. */
 #include "mix_cast.h"
 #include "mix_frames.h"
 #include "mix_turn.h"
@@ -134,48 +134,70 @@ static float brighter(const mix_job *j, lmb_vec3 from, float sun)
 }
 
 /* The share of brightness variance that a sun's shadows must explain: from UNSURE on the sun counts, from SURE on in
- * full. An uncertain sun is WIDE, degrees, and has WEAK times the environment's irradiance. */
-#define UNSURE    0.2f
-#define SURE      0.3f
-#define WIDE      80.0f
-#define WEAK      0.35f
-#define SHARE_MAX 4.0f
+ * full; likewise for a near light, of the variance before the smooth variation is removed. An uncertain sun is WIDE,
+ * degrees, and has WEAK times the environment's irradiance. */
+#define UNSURE      0.2f
+#define SURE        0.3f
+#define LAMP_UNSURE 0.3f
+#define LAMP_SURE   0.5f
+#define LAMP_SIZE   8.0f /* degrees */
+#define WIDE        80.0f
+#define WEAK        0.35f
+#define SHARE_MAX   4.0f
+#define FACES       0.17f /* minimum cosine to the surface under the object */
+
+/* If nothing shows the light, about half of it comes from lamps outside the picture, and their shadows are unknown. So
+ * the object darkens real surfaces only by this share of what it blocks of the surroundings. */
+#define DARKENS 0.5f
 
 typedef struct guess {
     lmb_vec3 from;
     float share, size, sure;
+    int is_lamp;
 } guess;
+
+static float ramp(float x, float low, float high) { return fminf(fmaxf((x - low) / (high - low), 0.0f), 1.0f); }
 
 /* Returns 0 if memory is short. */
 static int guess_of(guess *out, const mix_job *j, lmb_vec3 faces)
 {
-    mix_cast cast;
-    if (!mix_find_cast(&cast, j)) {
+    mix_cast sun;
+    mix_lamp lamp;
+    if (!mix_find_cast(&sun, &lamp, j, lmb_axes_turn(&j->axes, foot_of(j)))) {
         return 0;
     }
-    out->sure =
-        along(cast.to, faces) > 0.17f ? fminf(fmaxf((cast.explained - UNSURE) / (SURE - UNSURE), 0.0f), 1.0f) : 0.0f;
-    out->from = out->sure > 0.0f ? cast.to : overhead(j);
-    out->share = fmaxf(out->sure * fminf(cast.share, SHARE_MAX), WEAK);
-    out->size = out->sure > 0.0f ? cast.size : WIDE;
+    const float by_sun = along(sun.to, faces) > FACES ? ramp(sun.explained, UNSURE, SURE) : 0.0f,
+                by_lamp = along(lamp.to, faces) > FACES ? ramp(lamp.explained, LAMP_UNSURE, LAMP_SURE) : 0.0f;
+    memset(out, 0, sizeof *out);
+    out->is_lamp = by_sun < 1.0f && by_lamp > 0.0f;
+    out->sure = out->is_lamp ? by_lamp : by_sun;
+    if (out->sure > 0.0f) {
+        out->from = out->is_lamp ? lamp.to : sun.to;
+        out->size = out->is_lamp ? LAMP_SIZE : sun.size;
+    } else {
+        out->from = overhead(j);
+        out->size = WIDE;
+    }
+    out->share = fmaxf(out->sure * fminf(out->is_lamp ? lamp.share : sun.share, SHARE_MAX), WEAK);
     return 1;
 }
 
 /* The sun of a sequence's first frame. */
-static float kept_sun(lmb_light *out, const mix_job *j)
+static float kept_sun(lmb_light *out, float *softens, const mix_job *j)
 {
     const float *m = j->from_world.m;
     const lmb_vec3 d = j->kept->sun.direction;
     *out = j->kept->sun;
     out->direction = (lmb_vec3){m[0] * d.x + m[4] * d.y + m[8] * d.z, m[1] * d.x + m[5] * d.y + m[9] * d.z,
                                 m[2] * d.x + m[6] * d.y + m[10] * d.z};
+    *softens = j->kept->softens;
     return j->kept->sun_size;
 }
 
-float mix_guess_sun(lmb_light *out, const mix_job *j)
+float mix_guess_sun(lmb_light *out, float *softens, const mix_job *j)
 {
     if (j->kept != NULL && j->kept->frames > 0 && j->kept->has_sun) {
-        return kept_sun(out, j);
+        return kept_sun(out, softens, j);
     }
     float around[3];
     guess g;
@@ -196,6 +218,7 @@ float mix_guess_sun(lmb_light *out, const mix_job *j)
     out->kind = LMB_LIGHT_DIRECTIONAL;
     out->direction = (lmb_vec3){-from.x, -from.y, -from.z};
     out->cos_inner = out->cos_outer = 1.0f;
+    *softens = (1.0f - g.sure) * (1.0f - DARKENS);
     lmb_env_irradiance(around, &j->env[0], faces);
     for (int c = 0; c < 3; ++c) {
         out->intensity[c] = g.share * around[c];
@@ -204,10 +227,26 @@ float mix_guess_sun(lmb_light *out, const mix_job *j)
         j->o.is_quiet,
         "no light given: %s, %.2f as strong as what is around, which is %.2f times as bright as the photo has it%s; "
         "--light sun:0,0,0:%.3f,%.3f,%.3f:%.3f,%.3f,%.3f:%.0f",
-        g.sure > 0.0f ? "took a sun from the photo's shadows"
-                      : "no shadow shows where light comes from, so took a weak one from above",
+        g.is_lamp      ? "took a near light from how the photo's light falls off"
+        : g.sure > 0.0f ? "took a sun from the photo's shadows"
+                        : "nothing shows where light comes from, so took a weak one from above and soft shadows",
         (double)g.share, (double)more, more > 1.0f ? "; given by hand, the sun leaves that as in the photo" : "",
         (double)way.x, (double)way.y, (double)way.z, (double)out->intensity[0], (double)out->intensity[1],
         (double)out->intensity[2], (double)g.size);
     return g.size;
+}
+
+const lmb_irradiance *mix_soften(lmb_irradiance *room, const lmb_irradiance *with, const lmb_irradiance *without,
+                                 float softens)
+{
+    *room = *with;
+    for (int32_t i = 0; i < 3 * LMB_TILE_PIXELS; ++i) {
+        float *left = &room->rgb[i / LMB_TILE_PIXELS][i % LMB_TILE_PIXELS];
+        const float before = without->rgb[i / LMB_TILE_PIXELS][i % LMB_TILE_PIXELS];
+        if (*left < before) {
+            const float blocked = (before - *left) / before;
+            *left = before * (1.0f - blocked * (1.0f - softens * (1.0f - blocked)));
+        }
+    }
+    return room;
 }

@@ -38,7 +38,7 @@ static int is_across(const mix_job *j, lmb_vec3 up)
 /* Returns 0 if the planes must decide. */
 static int told_up(lmb_vec3 *out, const mix_job *j)
 {
-    static const float axes[2][3] = {{0, 1, 0}, {0, 0, 1}};
+    static const float axes[4][3] = {{0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
     if (j->o.up == MIX_UP_CAMERA) {
         *out = (lmb_vec3){0, 1, 0};
         return 1;
@@ -47,9 +47,10 @@ static int told_up(lmb_vec3 *out, const mix_job *j)
         *out = of_world(j, j->o.up == MIX_UP_POSE ? axes[0] : j->o.up_to);
         return 1;
     }
-    for (int i = 0; i < 2 && j->frame.has_pose; ++i) {
+    /* Files of some data sets have +Y or +Z down, but few cameras are upside down. */
+    for (int i = 0; i < 4 && j->frame.has_pose; ++i) {
         *out = of_world(j, axes[i]);
-        if (is_across(j, *out)) {
+        if (out->y > (i & 1 ? 0.5f : -0.17f) && is_across(j, *out)) {
             return 1;
         }
     }

@@ -48,12 +48,23 @@ typedef struct stage {
     binned bins;
     lmb_surface out;
     lmb_status failed[POOL_MAX]; /* by thread */
-    image picture;
+    image picture, both; /* both: of --stereo; without pixels otherwise */
+    lmb_view middle;     /* between the eyes */
     float *one;       /* one sample of each pixel, if there are several */
     float *rows;      /* by thread: eight rows of the picture */
     int32_t samples;
     double done, all; /* places of the path */
 } stage;
+
+/* Metres between the eyes; 0: one eye. */
+static float eyes_apart(const stage *s)
+{
+#if defined(OPTIONS_WITHOUT_HELP) /* the web page draws one */
+    return (void)s, 0.0f;
+#else
+    return s->o->stereo_m;
+#endif
+}
 
 static void *take(size_t bytes, report *r)
 {
@@ -244,11 +255,8 @@ static int touch(stage *s, report *r)
            (!s->o->contact || contact_make(&s->contact, &s->figures, s->light, s->o, r));
 }
 
-static int draw(stage *s, report *r)
+static int draw_eye(stage *s, report *r)
 {
-    if (!touch(s, r)) {
-        return 0;
-    }
     const size_t numbers = 3 * (size_t)s->picture.width * (size_t)s->picture.height;
     const float weight = 1.0f / (float)s->samples;
     lmb_status status = LMB_OK;
@@ -260,24 +268,44 @@ static int draw(stage *s, report *r)
         for (size_t k = 0; s->one != NULL && k < numbers; ++k) {
             s->picture.pixels[k] = (i > 0 ? s->picture.pixels[k] : 0.0f) + weight * s->one[k];
         }
-        s->done += 1.0 / (double)s->samples;
+        s->done += (eyes_apart(s) > 0.0f ? 0.5 : 1.0) / (double)s->samples;
     }
     return status == LMB_OK || report_fail(r, "%s: drawing stopped: %s", s->o->object, lmb_status_name(status));
+}
+
+/* Draws the picture, or both eyes side by side with the same light. [S27] */
+static int draw(stage *s, report *r)
+{
+    if (!touch(s, r)) {
+        return 0;
+    }
+    const size_t row = 3 * (size_t)s->picture.width;
+    for (int eye = 0; eye < 2 && eyes_apart(s) > 0.0f; ++eye) {
+        s->relight.view = view_from(&s->middle, eyes_apart(s) * ((float)eye - 0.5f), &s->figures.scene);
+        if (!draw_eye(s, r)) {
+            return 0;
+        }
+        for (size_t y = 0; y < (size_t)s->picture.height; ++y) {
+            memcpy(s->both.pixels + (2 * y + (size_t)eye) * row, s->picture.pixels + y * row, row * sizeof(float));
+        }
+    }
+    return eyes_apart(s) > 0.0f || draw_eye(s, r);
 }
 
 /* Writes a picture. All pictures use the exposure of the first. */
 static int write(stage *s, const char *path, report *r)
 {
+    image *picture = eyes_apart(s) > 0.0f ? &s->both : &s->picture;
     if (s->o->into != NULL) {
-        *s->o->into = s->picture;
-        s->picture.pixels = NULL;
+        *s->o->into = *picture;
+        picture->pixels = NULL;
         return 1;
     }
     if (isnan(s->o->exposure_ev) && !picture_is_linear(picture_format(path))) {
-        s->o->exposure_ev = picture_auto_exposure(&s->picture, s->o->tone) + 0.0f; /* no minus zero */
+        s->o->exposure_ev = picture_auto_exposure(picture, s->o->tone) + 0.0f; /* no minus zero */
         report_note(s->o->view.is_quiet, "exposure %+.3g EV (auto)", (double)s->o->exposure_ev);
     }
-    return picture_write(path, &s->picture, s->o->exposure_ev, s->o->tone, r);
+    return picture_write(path, picture, s->o->exposure_ev, s->o->tone, r);
 }
 
 static int draw_place(void *user, int32_t i, const char *name, report *r)
@@ -353,6 +381,9 @@ static int take_view(stage *s, report *r)
         return 0;
     }
     l->view.near_m = v->near_m;
+    if (eyes_apart(s) > 0.0f) {
+        s->middle = l->view;
+    }
     l->view = view_from(&l->view, 0.0f, scene);
     return 1;
 }
@@ -375,6 +406,14 @@ static int take_frame(stage *s, report *r)
     s->picture.width = w;
     s->picture.height = h;
     s->picture.channels = 3;
+    if (eyes_apart(s) > 0.0f) {
+        s->both = s->picture;
+        s->both.width = 2 * w;
+        s->both.pixels = take(2 * (size_t)w * (size_t)h * 3 * sizeof(float), r);
+        if (s->both.pixels == NULL) {
+            return 0;
+        }
+    }
     lmb_surface_init(&l->eye.depth, LMB_DEPTH32F, w, h, s->depth_memory, depth);
     lmb_surface_init(&l->eye.id, LMB_ID32, w, h, s->id_memory, id);
     l->kernels = s->o->kernels;
@@ -399,6 +438,10 @@ static int run(stage *s, report *r)
 {
     const relight_options *o = s->o;
     s->all = 1.0;
+    if (eyes_apart(s) > 0.0f && 2 * o->view.width > LMB_MAX_SIDE) {
+        return report_fail_usage(r, "--stereo: two views of %d px are wider than %d; try a smaller --size",
+                                 (int)o->view.width, LMB_MAX_SIDE);
+    }
     if ((o->path != NULL && !place_list_read(&s->path, o->path, r)) ||
         !figures_load(&s->figures, o, o->path != NULL || o->objects > 1 ? 1 : (uint32_t)o->at_count, r) ||
         !take_cache(s, r)) {
@@ -450,6 +493,9 @@ static void stage_free(stage *s)
     free(s->depth_memory);
     free(s->id_memory);
     image_free(&s->picture);
+    if (eyes_apart(s) > 0.0f) {
+        image_free(&s->both);
+    }
     contact_free(&s->contact);
     ground_lights_free(&s->ground);
     place_list_free(&s->path);

@@ -286,6 +286,15 @@ static int take_vectors(lmb_probe_table *t, const image *from, const char *path,
     return 1;
 }
 
+/* The longitude of a transform image's left edge, by its first pixel at the horizon, to a hundredth of a degree: lights
+ * that are summed apart are added by longitude and latitude. */
+static float left_edge(const image *from)
+{
+    const float *v = from->pixels + 3 * (size_t)from->width * (size_t)(from->height / 2);
+    const float edge = roundf(100.0f * (atan2f(v[0], -v[2]) * 57.2957795f - 180.0f / (float)from->width));
+    return isfinite(edge) ? 0.01f * (edge < -18000.0f ? edge + 36000.0f : edge) : -180.0f;
+}
+
 static int load_table(own_table *t, const relight_options *o, report *r)
 {
     image vectors;
@@ -304,7 +313,8 @@ static int load_table(own_table *t, const relight_options *o, report *r)
     int ok = (vectors.channels == 3 && lmb_probe_table_bytes(vectors.width, vectors.height) > 0) ||
              report_fail(r, "%s: no transform image: it has 3 channels, and is 8 .. 512 high, by 8, and twice as wide",
                          o->vectors_in);
-    ok = ok && make_table(t, vectors.height, -180.0f, r) && take_vectors(&t->table, &vectors, o->vectors_in, r);
+    ok = ok && make_table(t, vectors.height, left_edge(&vectors), r) &&
+         take_vectors(&t->table, &vectors, o->vectors_in, r);
     image_free(&vectors);
     return ok;
 }

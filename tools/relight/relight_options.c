@@ -212,6 +212,10 @@ static const option_row picture_rows[] = {
      .help = HELP(PICTURE_OPTION_HELP)},
     VIEW_OPTION_SIZE(relight_options, view, "px (default 640x480)"),
     VIEW_OPTIONS_CAMERA(relight_options, view, "the camera's position (default: all objects fit)"),
+#if !defined(OPTIONS_WITHOUT_HELP)
+    {.name = "--stereo", .value = "METRES", .kind = OPTION_ABOVE, AT(stereo_m), .low = 0.0, .high = 1e6,
+     .help = HELP("two eyes this far apart, left | right side by side, each of --size; both use the same light")},
+#endif
     {.name = "--samples", .kind = OPTION_WORD, AT(samples), .words = option_samples, .values = option_sample_values,
      .help = HELP("per pixel, averaged (default 4 for .png and .ppm, 1 for .pfm and .hdr)")},
     OPTION_TONE_ROW(relight_options, tone),

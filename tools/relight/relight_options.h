@@ -48,6 +48,7 @@ typedef struct relight_options {
     int32_t map_height, side;
     float azimuth;     /* degrees: the longitude of the map's left edge */
     image *into;       /* receives the picture in place of the file `out`; release it. NULL: none */
+    float stereo_m;    /* between the eyes; 0: one eye */
     int32_t samples;   /* per pixel; 0: by the output's format */
     int32_t tone;      /* PICTURE_ */
     float exposure_ev; /* NaN: chosen by the picture */

@@ -349,7 +349,15 @@ void mix_lights_tile(lmb_irradiance *without, lmb_irradiance *with, mix_direct *
         lmb_direct_tile(with, j->o.kernels, real, view, &j->scene, &j->lights[i], &j->maps[i][1]);
     }
 }
-float mix_guess_sun(lmb_light *out, const mix_job *j) { return *out = j->o.lights[0], 0.0f; }
+float mix_guess_sun(lmb_light *out, float *softens, const mix_job *j)
+{
+    return *out = j->o.lights[0], *softens = 0.0f, 0.0f;
+}
+const lmb_irradiance *mix_soften(lmb_irradiance *room, const lmb_irradiance *with, const lmb_irradiance *without,
+                                 float share)
+{
+    return (void)room, (void)without, (void)share, with;
+}
 
 /* --- mix_labels.h: no label pictures ----------------------------------------------------------------------------- */
 
