@@ -20,7 +20,7 @@ static int is_live;
 static double bound(double of_cuts, double of_points) { return is_live ? of_points : of_cuts; }
 
 #if LMB_LIVE
-static uint64_t live_memory[(FACES * MAP * MAP / 16 + ELEMENTS) * 30 + 2048];
+static uint64_t live_memory[FACES * MAP * MAP / 16 * 46 + ELEMENTS * 31 + 2048];
 static uint64_t lattice_memory[FRAME * FRAME / 64 * (sizeof(lmb_lattice_tile) / 8) + 1024];
 static lmb_live live;
 static lmb_live_scratch live_scratch;
