@@ -46,10 +46,9 @@ static lmb_live_receiver receiver_of(const lmb_render *r, const lmb_live_sample 
     return receiver;
 }
 
-static lmb_status light_sample(const lmb_render *r, lmb_band_scratch *s, lmb_live_sample *inout, int k)
+static lmb_status light_sample(const lmb_render *r, lmb_band_scratch *s, lmb_live_sample *inout, int32_t x, int32_t y)
 {
-    const lmb_live_receiver receiver =
-        receiver_of(r, inout, s->tile.x + k % LMB_TILE, s->tile.y + k / LMB_TILE);
+    const lmb_live_receiver receiver = receiver_of(r, inout, x, y);
     const lmb_status status = lmb_render_live(inout->light, r, s, &receiver);
     for (int i = 0; i < 2 && status == LMB_OK; ++i) {
         const float *seen = i == 0 ? s->live->seen : s->live->sky_seen, steps = i == 0 ? LIVE_STEPS : LIVE_SKY_STEPS;
@@ -63,18 +62,19 @@ static lmb_status light_sample(const lmb_render *r, lmb_band_scratch *s, lmb_liv
 }
 
 /* Lights the requested samples of a tile. tile: its surfaces; NULL: they are stored. */
-NOINLINE lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s, const live_grid *g, live_grid_tile *t,
-                               const lmb_tile *tile, uint32_t asked)
+NOINLINE lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s, const live_grid *g, int32_t column,
+                               int32_t row, const lmb_tile *tile, uint32_t asked)
 {
+    live_grid_tile *t = grid_tile(g, column, row);
     lmb_status status = LMB_OK;
     for (uint32_t bits = asked; bits != 0 && status == LMB_OK; bits &= bits - 1) {
-        const int k = lowest_bit(bits);
+        const int k = lowest_bit(bits), pixel = grid_pixel(k);
         lmb_live_sample *sample = grid_sample(g, t, k);
         if (tile != NULL) {
-            *sample = lmb_live_grid_surface(tile, grid_pixel(k));
+            *sample = lmb_live_grid_surface(tile, pixel);
         }
         sample->position = lmb_place_onto_triangle(r->frame.scene, sample->id, sample->position);
-        status = light_sample(r, s, sample, grid_pixel(k));
+        status = light_sample(r, s, sample, column * LMB_TILE + pixel % LMB_TILE, row * LMB_TILE + pixel / LMB_TILE);
     }
     t->known |= (uint16_t)asked;
     return status;
@@ -90,7 +90,7 @@ static lmb_status take_surfaces(const lmb_render *r, lmb_band_scratch *s, const 
         if (status == LMB_OK) {
             const int lobes = requires_glossy(r) && lmb_glossy_tile(&s->glossy, &s->tile, &f->view, f->scene);
             lmb_live_grid_put(g, &s->tile, lobes);
-            status = light_tile(r, s, g, grid_tile(g, column, row), NULL, lmb_live_grid_asks(g, column, row, 0));
+            status = light_tile(r, s, g, column, row, NULL, lmb_live_grid_asks(g, column, row, 0));
         }
     }
     return status;
@@ -106,7 +106,7 @@ static lmb_status light_row(const lmb_render *r, lmb_band_scratch *s, const live
     for (int32_t column = 0; column < g->columns && status == LMB_OK; ++column) {
         const uint32_t asked = lmb_live_grid_asks(g, column, row, level);
         if (level == 1) {
-            status = light_tile(r, s, g, grid_tile(g, column, row), NULL, asked);
+            status = light_tile(r, s, g, column, row, NULL, asked);
             continue;
         }
         if (asked != 0 && !is_drawn) {
@@ -117,7 +117,7 @@ static lmb_status light_row(const lmb_render *r, lmb_band_scratch *s, const live
             status = lmb_resolve_tile(&s->tile, f->kernels, &f->view, f->scene, eye, column * LMB_TILE, row * LMB_TILE);
         }
         if (asked != 0 && status == LMB_OK) {
-            status = light_tile(r, s, g, grid_tile(g, column, row), &s->tile, asked);
+            status = light_tile(r, s, g, column, row, &s->tile, asked);
         }
     }
     return status;
@@ -268,7 +268,7 @@ static lmb_status light_left(lmb_irradiance *inout, const lmb_render *r, lmb_ban
         if (!(around_of(&from, k).sum > 0.0f)) {
             lmb_live_sample own = lmb_live_grid_surface(from.tile, k);
             own.position = lmb_place_onto_triangle(r->frame.scene, own.id, own.position);
-            status = light_sample(r, s, &own, k);
+            status = light_sample(r, s, &own, s->tile.x + k % LMB_TILE, s->tile.y + k / LMB_TILE);
             for (int c = 0; c < 3; ++c) {
                 inout->rgb[c][k] = own.light[c];
             }

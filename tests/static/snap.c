@@ -43,7 +43,7 @@ int main(void)
     }
     const lmb_screen_vertex v = snap(&d, &polygon[0]);
     /*@ assert -4194304 <= v.x_24_8 <= 4194304 && -4194304 <= v.y_24_8 <= 4194304; */
-    const int n = cut(polygon, any_between(3, LMB_CLIP_MAX), plane, &d.guard);
+    const int n = cut_by_plane(polygon, any_between(3, LMB_CLIP_MAX), plane, &d.guard);
     /*@ assert 0 <= n <= LMB_CLIP_MAX; */
     return 0;
 }

@@ -88,6 +88,8 @@ static struct {
     lmb_surface metres;
     lmb_tile tile;
     lmb_many_lights many_lights, stream; /* built; not yet built */
+    lmb_many_lights suns;
+    lmb_live_sky live_sky;
     lmb_cloud cloud;
     lmb_planes planes;
     lmb_real_mesh mesh;
@@ -255,6 +257,14 @@ static void make_voxels(void)
         CHECK(lmb_many_lights_add(&g.many_lights, &l, 1) == LMB_OK);
     }
     CHECK(lmb_many_lights_build(&g.many_lights) == LMB_OK && g.many_lights.lights == 3);
+    const size_t sky = lmb_live_sky_bytes(16);
+    lmb_light sun = point_light(vec3(0, 1, 0));
+    sun.kind = LMB_LIGHT_DIRECTIONAL;
+    sun.direction = vec3(0, -1, 0);
+    CHECK(lmb_many_lights_init(&g.suns, 16, vec3(0, 0, 0), vec3(0, 0, 0), 1e4f, room(many_lights), many_lights) ==
+          LMB_OK);
+    CHECK(lmb_many_lights_add(&g.suns, &sun, 1) == LMB_OK && lmb_many_lights_build(&g.suns) == LMB_OK);
+    CHECK(lmb_live_sky_init(&g.live_sky, 16, room(sky), sky) == LMB_OK);
     lmb_hull_find(&g.hull, scene);
 }
 
@@ -359,6 +369,8 @@ static int good_for_call(known *out, const argument *a)
         *out = (known){"lmb_render", &g.begun, sizeof g.begun};
     } else if (calls_for("lmb_many_lights_add") || calls_for("lmb_many_lights_build")) {
         *out = (known){"lmb_many_lights", &g.stream, sizeof g.stream};
+    } else if (calls_for("lmb_many_lights_sky") && strcmp(a->name, "many_lights") == 0) {
+        *out = (known){"lmb_many_lights", &g.suns, sizeof g.suns};
     } else if (calls_for("lmb_gbuffer_band") && strcmp(a->name, "depth") == 0) {
         *out = (known){"lmb_surface", &g.metres, sizeof g.metres};
     } else if (calls_for("lmb_depth_linearize")) {
@@ -455,6 +467,7 @@ static const void *good_one(const argument *a, size_t *bytes)
         {"lmb_fixed_view", &g.fixed_frame.view, sizeof g.fixed_frame.view},
         {"lmb_tree", &f->tree, sizeof f->tree},
         {"lmb_live", &g.live, sizeof g.live},
+        {"lmb_live_sky", &g.live_sky, sizeof g.live_sky},
         {"lmb_live_receiver", &g.live_receiver, sizeof g.live_receiver},
         {"lmb_draw_target", &g.draw_target, sizeof g.draw_target},
         {"lmb_draw_state", &g.draw_state, sizeof g.draw_state},
