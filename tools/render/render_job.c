@@ -414,8 +414,8 @@ static int32_t gather_of(const render_job *j)
                         j->wide == NULL && !j->gathers_sky;
     const int is_quick =
         o->quality == LMB_QUALITY_DRAFT || ((o->is_moving || is_even) && o->quality == LMB_QUALITY_DEFAULT);
-    const int is_live = LMB_LIVE && j->scene.core.faces <= 1 && is_cut && !is_asked &&
-                        !has_budget(&o->budget, o->budget_ms) && is_quick && !is_small;
+    const int is_live =
+        LMB_LIVE && is_cut && !is_asked && !has_budget(&o->budget, o->budget_ms) && is_quick && !is_small;
     return o->gather_step != 0 ? o->gather_step : is_live ? LMB_GATHER_LIVE : is_soft ? LMB_GATHER_ADAPTIVE : 0;
 }
 

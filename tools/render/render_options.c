@@ -221,8 +221,7 @@ const option_row render_bounce_rows[] = {
                   "continuous, and denser if the light needs it, or for a smaller --error; live: like adaptive, "
                   "with 64 segments each (draft: 32): the fastest, for moving light. Default: full; from 65,536 "
                   "pixels on, except with best: live for --quality draft, for `play` and for many lights, unless "
-                  "you give --error, --visibility, --tree or a budget, or the scene is a small place in much land; "
-                  "otherwise adaptive under a sky")},
+                  "you give --error, --visibility, --tree or a budget; otherwise adaptive under a sky")},
     {.kind = OPTION_END},
 };
 
