@@ -56,6 +56,7 @@
 #define lmb_many_lights_elements    LMB_LAYOUT(lmb_many_lights_elements)
 #define lmb_mirror_tile             LMB_LAYOUT(lmb_mirror_tile)
 #define lmb_object_tile             LMB_LAYOUT(lmb_object_tile)
+#define lmb_occluded_again          LMB_LAYOUT(lmb_occluded_again)
 #define lmb_plan_frame              LMB_LAYOUT(lmb_plan_frame)
 #define lmb_planes_anchor           LMB_LAYOUT(lmb_planes_anchor)
 #define lmb_planes_clear            LMB_LAYOUT(lmb_planes_clear)

@@ -48,8 +48,8 @@
  * that show one triangle, or of a quarter of a block that is not flat. 60 bytes. */
 typedef struct lmb_live_point {
     lmb_vec3 position, normal; /* m; unit, on the lit side */
-    float flux[3];             /* outgoing Lambertian power of the block, W; all 0: no first point */
-    float area;                /* of the block on the surface, m2 */
+    float flux[3];             /* outgoing Lambertian power of the blocks or parts, W; all 0: no first point */
+    float area;                /* of these on the surface, m2 */
     uint32_t id;               /* the triangle */
     uint32_t key;              /* cell of the world and side, once the tree is built */
     uint16_t column, row;      /* the first block */
@@ -218,10 +218,11 @@ size_t lmb_live_sky_bytes(uint32_t suns);
 lmb_status lmb_live_sky_init(lmb_live_sky *out, uint32_t suns, void *memory, size_t bytes);
 
 /* lmb_live_collect: collect first points of one face, as face `into` of the tree: those of the rows of 8 blocks that
- * begin in the map's tile rows first .. past - 1. Rows may be collected in any order, on any threads. All light through
- * a block is put at one of its texels. Over many blocks, surfaces that share blocks get light in proportion to the
- * texels that they show.
+ * begin in the map's tile rows first .. past - 1. Rows may be collected in any order, on any threads. The light through
+ * a flat block is put at one of its texels, that of another block at one texel of each quarter. Over many blocks,
+ * surfaces that share blocks get light in proportion to the texels that they show.
  *   light  of scene->lights.
+ *   map    drawn: depths and ids are read.
  * Returns LMB_OK, LMB_ERR_ARG, or LMB_ERR_CAPACITY (no such face; more blocks than there is room for). */
 lmb_status lmb_live_collect(const lmb_live *live, const lmb_kernels *kernels, lmb_tile *scratch,
                             const lmb_scene *scene, uint32_t light, const lmb_shadow_map *map, int32_t face,

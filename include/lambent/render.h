@@ -42,7 +42,7 @@ enum { LMB_SHOW_FULL = 0, LMB_SHOW_DIRECT = 1, LMB_SHOW_INDIRECT = 2, LMB_SHOW_I
 /* Values of gather_step: samples lie 8 px apart, and closer if light or surfaces vary. Pixels between samples are
  * interpolated with the gradients of the samples. The picture is a function of scene, view and settings; order, threads
  * and bands do not change it. */
-enum { LMB_GATHER_ADAPTIVE = 8, LMB_GATHER_LIVE = 16 /* the same samples, by lmb_live: for lights that move */ };
+enum { LMB_GATHER_ADAPTIVE = 8, LMB_GATHER_LIVE = 16 /* up to 16 px apart, by lmb_live */ };
 
 /* Scratch for frame.samples > 1: the samples of one band. 19 KiB, and the memory of `eye`. */
 typedef struct lmb_multisample {

@@ -45,6 +45,8 @@ typedef struct lmb_tree {
     const struct lmb_element *element; /* NULL; or the elements that replace the texels, along a Z curve */
     int32_t size;     /* texels a side: a power of two */
     uint32_t face_cap, faces;
+    int32_t tests;    /* 1: cuts test visibility, so steep planes at sharp edges are drawn by their triangles; set it
+                         before lmb_tree_texels. Frames set it */
 } lmb_tree;
 
 /* A node of a tile's cut, prepared for the gather. */

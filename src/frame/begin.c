@@ -64,6 +64,7 @@ lmb_status lmb_render_begin(lmb_render *r, const lmb_frame *frame)
     f->id_format = f->id_format != 0 ? f->id_format : LMB_ID32;
     lmb_render_defaults(f);
     f->tree.faces = 0;
+    f->tree.tests = f->occlusion == LMB_OCCLUSION_EXACT && !f->conservative;
     f->points.count = 0;
     f->points.faces = 0;
     f->points.owner_count = 0;

@@ -143,6 +143,15 @@ lmb_status lmb_render_live(float light[3], const lmb_render *r, lmb_band_scratch
     return status;
 }
 
+/* The shift of the segments towards a sky. Tiles of vertices and of samples have no neighbours, so it comes from the
+ * place alone. */
+static float turn_at(lmb_vec3 place)
+{
+    uint32_t bits[3];
+    memcpy(bits, &place, sizeof bits);
+    return (float)(live_hash(bits[0], bits[1], bits[2]) >> 8) * (1.0f / 16777216.0f);
+}
+
 /* Lights each pixel separately. */
 static lmb_status live_tile(lmb_irradiance *inout, lmb_glossy *glossy, const lmb_render *r, lmb_band_scratch *s,
                             const lmb_tile *tile, const lmb_irradiance *direct)
@@ -153,11 +162,10 @@ static lmb_status live_tile(lmb_irradiance *inout, lmb_glossy *glossy, const lmb
     }
     for (int k = 0; k < LMB_TILE_PIXELS && status == LMB_OK; ++k) {
         if (tile->id[k] != 0) {
-            const lmb_live_receiver at = {tile_vec(tile->position, k), tile_vec(tile->face, k),
-                                          tile_vec(tile->normal, k), tile->id[k],
-                                          lmb_place_noise(tile_vec(tile->position, k), absf(tile->depth[k])),
-                                          view_to_eye(&r->frame.view, tile_vec(tile->position, k)),
-                                          live_turn(k % LMB_TILE, k / LMB_TILE)};
+            const lmb_vec3 place = tile_vec(tile->position, k);
+            const lmb_live_receiver at = {place, tile_vec(tile->face, k), tile_vec(tile->normal, k), tile->id[k],
+                                          lmb_place_noise(place, absf(tile->depth[k])),
+                                          view_to_eye(&r->frame.view, place), turn_at(place)};
             float light[3];
             status = lmb_live_receive(light, r->frame.kernels, s->live, r->frame.live, live_bvh(&r->frame), &at);
             count_live(&s->counts, s->live);

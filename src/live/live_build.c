@@ -171,7 +171,7 @@ static void sort_by(pair *to, const pair *from, uint32_t count, int shift)
 static void sort_points(const builder *b)
 {
     lmb_live *live = b->live;
-    pair *one = (pair *)(void *)live->chunk, *other = one + live_slots(live->face_cap, live->side) + live->element_cap;
+    pair *one = (pair *)(void *)live->chunk, *other = (pair *)(void *)live->sorted;
     uint32_t count = 0;
     for (uint32_t run = 0; run < slot_runs(live); ++run) {
         const slot_run s = slot_run_of(live, run);

@@ -256,7 +256,7 @@ static uint32_t divide_block(collector *c, int *others, int32_t column, int32_t 
     lmb_live_block_of(&b, c->face, column, row);
     c->shows[k] = 0xffffu;
     c->rest[k] = 0;
-    if (b.is_one) {
+    if (b.is_one && (c->face->each == BLOCK || live_id(&c->face->id, c->x[k], c->y[k]) == b.id[0])) {
         return b.id[0];
     }
     uint32_t id = live_id(&c->face->id, c->x[k], c->y[k]);
@@ -274,6 +274,7 @@ static uint32_t divide_block(collector *c, int *others, int32_t column, int32_t 
     for (int q = 0; q < 4; ++q) {
         count += q != own && (quarter_of(q) & b.shown) != 0;
     }
+    c->shows[k] = (uint16_t)b.shown;
     if (*others + count <= LIVE_QUARTERS) {
         *others += count;
         c->shows[k] = (uint16_t)(quarter_of(own) & b.shown);

@@ -38,7 +38,7 @@ static int go_on(const lmb_vec3 *reach, lmb_vec3 between, int steps)
 }
 
 void lmb_facets_mark(lmb_texel *inout, const lmb_tile *t, int own, int first, int32_t each, const lmb_view *v,
-                     int32_t size)
+                     int32_t size, int32_t tests)
 {
     const lmb_vec3 normal = tile_vec(t->face, own), at = tile_vec(t->position, own);
     const lmb_vec3 ray = facets_extent_of(inout, v, size).ray;
@@ -64,8 +64,8 @@ void lmb_facets_mark(lmb_texel *inout, const lmb_tile *t, int own, int first, in
         const int steps = absi(k % LMB_TILE - own % LMB_TILE) + absi(k / LMB_TILE - own / LMB_TILE);
         const lmb_vec3 *longer = length3(reach[0]) + length3(reach[1]) > length3(own_reach[0]) + length3(own_reach[1])
                                      ? reach : own_reach;
-        several |= minf(absf(dot3(ray, normal)), absf(dot3(ray, n))) < STEEP_FACET || dot3(normal, n) >= TILE_COS_25 ||
-                   !go_on(longer, sub3(p, at), steps) ||
+        const int steep = tests && minf(absf(dot3(ray, normal)), absf(dot3(ray, n))) < STEEP_FACET;
+        several |= steep || dot3(normal, n) >= TILE_COS_25 || !go_on(longer, sub3(p, at), steps) ||
                    (other >= 0 && !in_plane(tile_vec(t->face, other), n, sub3(p, tile_vec(t->position, other))));
         other = k;
         cosine = minf(cosine, dot3(normal, n));
@@ -318,8 +318,9 @@ void lmb_facets_open(lmb_facets *out, const lmb_tree *tree, const lmb_scene *sce
     out->left = out->surfaces > 0 ? out->surface[0].pixels : 0;
 }
 
-/* Pixels x0 .. x1 - 1 of a row, in the plane of a speck: neighbours that no pixel shows continue it. */
-static void spread_speck(lmb_facet *out, const lmb_facets *f, int x0, int y, int x1)
+/* Pixels x0 .. x1 - 1 of a row, in the plane of a speck: neighbours that no pixel shows continue it. Returns 0 if the
+ * plane does not extend that far. */
+static int spread_speck(lmb_facet *out, const lmb_facets *f, int x0, int y, int x1)
 {
     const lmb_view *v = &f->tree->view[f->at.face];
     const float size = 0.5f * (float)(f->tree->size * f->each);
@@ -328,10 +329,14 @@ static void spread_speck(lmb_facet *out, const lmb_facets *f, int x0, int y, int
         const float x = (float)(f->at.x * f->each + (i == 1 || i == 2 ? x1 : x0)) / size - 1.0f,
                     up = 1.0f - (float)(f->at.y * f->each + y + (i < 2)) / size;
         out->corner[i] = footprint_over(v, s->on, s->normal, x * v->half_width, up * v->half_height);
+        if (!is_place(out->corner[i])) {
+            return 0;
+        }
     }
     out->normal = s->normal;
     out->corners = 4;
     set_middle(out);
+    return 1;
 }
 
 /* Cuts the part to the next run of pixels that show it. */
@@ -346,9 +351,7 @@ static void cut_to_run(lmb_facet *inout, lmb_facets *f, const lmb_triangle *t)
     const uint64_t run = ((uint64_t)2 << past) - ((uint64_t)1 << k);
     float area;
     lmb_triangle_shape(&inout->normal, &area, t);
-    if (f->surface[f->at_surface].is_speck) {
-        spread_speck(inout, f, k % each, k / each, past % each + 1);
-    } else {
+    if (!f->surface[f->at_surface].is_speck || !spread_speck(inout, f, k % each, k / each, past % each + 1)) {
         cut_out(inout, f, t, k % each, k / each, past % each + 1, k / each + 1);
     }
     turn_to_light(inout, &f->tree->view[f->at.face]);

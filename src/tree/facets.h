@@ -35,10 +35,10 @@ static inline facets_extent facets_extent_of(const lmb_texel *t, const lmb_view 
 }
 
 /* Marks a texel if its block of each x each pixels of the map, from pixel `first` of the tile on, shows several planes.
- * Two planes that meet at a sharp edge are a crease and do not count, unless one is steep. own: the texel's pixel;
- * size: of the tree. */
+ * Two planes that meet at a sharp edge are a crease and do not count, unless one is steep and the tree `tests`. own:
+ * the texel's pixel; size: of the tree. */
 void lmb_facets_mark(lmb_texel *inout, const lmb_tile *t, int own, int first, int32_t each, const lmb_view *v,
-                     int32_t size);
+                     int32_t size, int32_t tests);
 
 /* One part: a polygon, counter-clockwise around the normal, which is on the lit side. */
 typedef struct lmb_facet {

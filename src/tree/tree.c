@@ -154,7 +154,7 @@ static int choose_pixel(int *goes, const lmb_tile *t, uint64_t at_end, int k, co
 /* Sets a texel of the tree: at the centre, or at a pixel if the plane of the pixel is edge-on or ends before the
  * centre. */
 static void set_texel(lmb_texel *out, const lmb_tile *t, uint64_t at_end, int k, const lmb_light *light,
-                      const lmb_shadow_map *coarse, int32_t face, int32_t x, int32_t y)
+                      const lmb_shadow_map *coarse, int32_t tests, int32_t face, int32_t x, int32_t y)
 {
     const lmb_view *v = &coarse->view[face];
     const float size = (float)coarse->size, sx = ((float)(2 * x + 1) / size - 1.0f) * v->half_width,
@@ -178,10 +178,11 @@ static void set_texel(lmb_texel *out, const lmb_tile *t, uint64_t at_end, int k,
     for (int c = 0; c < 3; ++c) {
         out->flux[c] = flux_or_none(power[c] * t->albedo[c][own]);
     }
+    (void)tests;
 #if LMB_FACETS
     const int32_t each = coarse->face[face].id.width / coarse->size;
     if (each > 1) {
-        lmb_facets_mark(out, t, own, k - each / 2 * (LMB_TILE + 1), each, v, coarse->size);
+        lmb_facets_mark(out, t, own, k - each / 2 * (LMB_TILE + 1), each, v, coarse->size, tests);
     }
 #endif
 }
@@ -220,7 +221,7 @@ lmb_status lmb_tree_texels(const lmb_tree *tree, const lmb_kernels *kernels, lmb
             if (x % each == each / 2 && y % each == each / 2) {
                 set_texel(&tree->texel[((size_t)into * (size_t)size + (size_t)(y / each)) * (size_t)size +
                                        (size_t)(x / each)],
-                          scratch, at_end, k, light, &coarse, face, x / each, y / each);
+                          scratch, at_end, k, light, &coarse, tree->tests, face, x / each, y / each);
             }
         }
     }

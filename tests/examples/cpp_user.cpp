@@ -67,5 +67,5 @@ int main()
     Renderer renderer(settings);
     const lmb_status status = renderer.draw();
     return status != LMB_OK || ends_with("C++", lmb_surface_hash(&renderer.picture()),
-                                       BY_CONFIG(UINT64_C(0x9a40499a17cf86d8), UINT64_C(0x4afcf9870b45114f)));
+                                       BY_CONFIG(UINT64_C(0x0c572a24ad6d96d2), UINT64_C(0x4afcf9870b45114f)));
 }

@@ -320,6 +320,65 @@ static void quarters_of_blocks(void)
     CHECK_MSG(got / want > 0.75 && got / want < 1.1, "floor beside the posts has %.3f of the light", got / want);
 }
 
+/* Small triangles in front of nothing fill more quarters than there is room for: the light stays that of the texels
+ * that show them. */
+static void crowded_blocks_keep_their_light(void)
+{
+    const lmb_light light = spot(vec3(0, 0, 4), vec3(0, 0, -1), 34, 35);
+    test_rng r = {3};
+    double want = 0.0, flux = 0.0;
+    uint32_t whole = 0;
+    world_begin(0.6f, 0.6f, 0.6f);
+    for (int i = 0; i < 2000; ++i) { /* in a quarter of the picture */
+        const lmb_vec3 at = vec3(test_uniform(&r, -0.6f, 0.6f), test_uniform(&r, -0.6f, 0.6f), test_uniform(&r, -0.5f, 0.5f));
+        world_triangle(at, add3(at, vec3(0.05f, 0.02f, 0)), add3(at, vec3(0.01f, 0.06f, 0)));
+    }
+    light_world(&light, 1);
+    for (uint32_t i = 0; i < live.points; ++i) {
+        flux += (double)live.sorted[i].flux[0];
+        whole += live.sorted[i].shows != 0xffffu && count_bits_16(live.sorted[i].shows) > 4;
+    }
+    for (int32_t i = 0; i < MAP * MAP; ++i) {
+        float power[3];
+        lmb_light_texel_power(power, &light, &map, 0, i % MAP, i / MAP);
+        want += live_id(&live.face[0].id, i % MAP, i / MAP) != 0 ? 0.6 * (double)power[0] : 0.0;
+    }
+    CHECK_MSG(whole > 50, "%u blocks without room", (unsigned)whole);
+    CHECK_MSG(fabs(flux / want - 1.0) < 0.02, "%g W of %g", flux, want);
+}
+
+/* Many faces of a few blocks each: no first point is lost while they are sorted. */
+static void many_small_faces(void)
+{
+    const uint32_t faces = 700;
+    static uint64_t memory[700 * 1024 + (1 << 16)];
+    lmb_live l;
+    float sum = 0.0f;
+    room_with_table();
+    CHECK(world_end() == LMB_OK);
+    CHECK(lmb_live_bytes(faces, 2, 0) <= sizeof memory);
+    CHECK(lmb_live_init(&l, faces, 2, 0, memory, sizeof memory) == LMB_OK);
+    memset(l.point, 0, live_slots(faces, 2) * sizeof *l.point);
+    for (uint32_t f = 0; f < faces; ++f) {
+        l.face[f].size = 8;
+        l.face[f].each = 4;
+        for (uint32_t k = 0; k < 4; ++k) {
+            lmb_live_point *p = &l.point[4 * f + k];
+            p->position = vec3(0.001f * (float)f, 1.0f, 0.2f * (float)k);
+            p->normal = vec3(0, 1, 0);
+            p->flux[0] = p->flux[1] = p->flux[2] = 1.0f;
+            p->area = 1e-4f;
+            p->id = 1;
+        }
+    }
+    l.faces = faces;
+    CHECK(lmb_live_build(&l, &world.scene) == LMB_OK);
+    for (uint32_t i = 0; i < l.points; ++i) {
+        sum += l.sorted[i].flux[0];
+    }
+    CHECK_MSG(l.points == 4 * faces && sum == 4.0f * (float)faces, "%u points, %g W", (unsigned)l.points, (double)sum);
+}
+
 /* Parts that earlier points left in the scratch change no byte, and some are used. */
 static void kept_parts(void)
 {
@@ -901,6 +960,8 @@ void test_live(void)
     area_counts_once();
     alike_blocks_are_joined();
     quarters_of_blocks();
+    crowded_blocks_keep_their_light();
+    many_small_faces();
     kept_parts();
     near_field();
     under_a_sheet_is_dark();

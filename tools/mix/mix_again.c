@@ -81,7 +81,7 @@ static void draw_run(mix_job *j, size_t at, int32_t count)
 {
     const mix_answer *a = &j->answer[at];
     lmb_tile tile;
-    lmb_irradiance light[2];
+    lmb_irradiance light[2], soft;
     lmb_radiance photo;
     memset(tile.id, 0, sizeof tile.id);
     memset(&light, 0, sizeof light);
@@ -94,7 +94,7 @@ static void draw_run(mix_job *j, size_t at, int32_t count)
             photo.rgb[c][k] = j->frame.light.pixels[3 * (at + (size_t)k) + (size_t)c];
         }
     }
-    lmb_delta_tile(&photo, &tile, &light[0], &light[1]);
+    lmb_delta_tile(&photo, &tile, &light[0], mix_soften(&soft, &light[1], &light[0], j->softens));
     for (int32_t k = 0; k < count; ++k) {
         for (int c = 0; c < 3; ++c) {
             j->picture.pixels[3 * (at + (size_t)k) + (size_t)c] =

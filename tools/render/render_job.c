@@ -456,7 +456,7 @@ static lmb_frame_settings settings_of(const render_job *j, const lmb_scene *bare
 static int refuse(const lmb_frame_settings *s, report *r)
 {
     if (s->gather_step == LMB_GATHER_LIVE && s->quality == LMB_QUALITY_FIXED) {
-        return report_fail_usage(r, "--gather live takes its light from --group method=cut only");
+        return report_fail_usage(r, "--gather live needs --group method=cut");
     }
     return s->quality == LMB_QUALITY_FIXED
                ? report_fail(
