@@ -76,13 +76,12 @@ static inline void live_keep_off(lmb_live_scratch *s, const lmb_live *live, cons
                                  const lmb_live_job *job)
 {
     const lmb_live_point *p = &live->sorted[c->first[i]];
-    const float block = p->area * ((float)LMB_LIVE_NODES / (float)maxi(count_bits_16(p->shows), 1));
     const float texel =
-        p->face == LMB_LIVE_ELEMENT ? 0.0f : LIVE_OFF * sqrtf(block) / (float)(live->face[p->face].each * p->wide);
+        p->face == LMB_LIVE_ELEMENT ? 0.0f : LIVE_OFF * sqrtf(p->area) / (float)(live->face[p->face].each * p->wide);
     const lmb_vec3 d = sub3(job->position, p->position);
     const float height = dot3(d, p->normal), cosine = dot3(p->normal, job->face);
     const float lift = texel - height, along2 = 1.0f - cosine * cosine;
-    if (lift > s->lift && lift > 1e-3f * texel && height > -texel && along2 > 0.1f && dot3(d, d) < 2.0f * block) {
+    if (lift > s->lift && lift > 1e-3f * texel && height > -texel && along2 > 0.1f && dot3(d, d) < 2.0f * p->area) {
         s->lift = lift;
         s->off = mul3(sub3(p->normal, mul3(job->face, cosine)), lift / along2);
     }
