@@ -44,8 +44,8 @@
 #define LMB_LIVE_LAST   4    /* triangles that blocked many segments recently */
 #define LMB_LIVE_SKY    64   /* maximum number of chunks of a sky */
 
-/* A first point: the surface at one texel of a block of the map, picked by a hash, or of 2 x 2 blocks amid 4 x 4
- * that show one triangle, or of a quarter of a block that is not flat. 60 bytes. */
+/* A first point. A hash selects one texel to represent a block of the map, 4 x 4 or 8 x 8 texels. If 4 x 4 blocks show
+ * one triangle, one texel represents 2 x 2 of them. If a block is not flat, each quarter has a point. 60 bytes. */
 typedef struct lmb_live_point {
     lmb_vec3 position, normal; /* m; unit, on the lit side */
     float flux[3];             /* outgoing Lambertian power of the blocks or parts, W; all 0: no first point */
@@ -55,7 +55,7 @@ typedef struct lmb_live_point {
     uint16_t column, row;      /* the first block */
     uint16_t face;             /* LMB_LIVE_ELEMENT: column + 65,536 row is an element */
     uint8_t light, wide;       /* wide: blocks a side: 1 or 2 */
-    uint16_t shows;            /* the point's ones of the block's 4 x 4 parts, a bit each */
+    uint16_t shows;            /* bit i: part i of the block's 4 x 4 parts belongs to this point */
 } lmb_live_point;
 #define LMB_LIVE_ELEMENT 0xffffu
 
@@ -116,8 +116,8 @@ typedef struct lmb_live_sky {
 typedef struct lmb_live {
     const lmb_scene *scene; /* the scene that it was built from */
     lmb_live_face *face;
-    lmb_live_point *point;  /* face_cap x side x side: a fixed slot for each block; then up to 64 of other quarters for
-                               each 8 x 8 blocks; then element_cap of elements */
+    lmb_live_point *point;  /* face_cap x side x side: a fixed slot for each block; then 64 slots for further quarters
+                               of each group of 8 x 8 blocks; then element_cap of elements */
     const struct lmb_element *element; /* shapes of the element points */
     const lmb_live_sky *sky; /* adds its light; NULL: none */
     lmb_live_point *sorted; /* the lit ones, in the order of the cells */
@@ -219,8 +219,8 @@ lmb_status lmb_live_sky_init(lmb_live_sky *out, uint32_t suns, void *memory, siz
 
 /* lmb_live_collect: collect first points of one face, as face `into` of the tree: those of the rows of 8 blocks that
  * begin in the map's tile rows first .. past - 1. Rows may be collected in any order, on any threads. The light through
- * a flat block is put at one of its texels, that of another block at one texel of each quarter. Over many blocks,
- * surfaces that share blocks get light in proportion to the texels that they show.
+ * a flat block is put at one texel of the block; otherwise each quarter gets a point. Over many blocks, surfaces get
+ * light in proportion to the texels that show them.
  *   light  of scene->lights.
  *   map    drawn: depths and ids are read.
  * Returns LMB_OK, LMB_ERR_ARG, or LMB_ERR_CAPACITY (no such face; more blocks than there is room for). */

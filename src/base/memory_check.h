@@ -19,4 +19,16 @@ static inline lmb_status check_memory(const void *memory, size_t bytes, size_t n
     return needed == 0 || bytes < needed ? LMB_ERR_CAPACITY : LMB_OK;
 }
 
+/* For an object laid out in memory that is aligned as for a uint64_t. Pass needed = 0 if its size is impossible. */
+static inline lmb_status check_room(const void *out, const void *memory, size_t bytes, size_t needed)
+{
+    if (out == NULL || memory == NULL || needed == 0) {
+        return LMB_ERR_ARG;
+    }
+    if ((uintptr_t)memory % sizeof(uint64_t) != 0) {
+        return LMB_ERR_ALIGN;
+    }
+    return bytes < needed ? LMB_ERR_CAPACITY : LMB_OK;
+}
+
 #endif

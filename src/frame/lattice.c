@@ -62,15 +62,9 @@ size_t lmb_lattice_bytes(int32_t width, int32_t height)
 
 lmb_status lmb_lattice_init(lmb_lattice *out, int32_t width, int32_t height, void *memory, size_t bytes)
 {
-    const size_t needed = lmb_lattice_bytes(width, height);
-    if (out == NULL || memory == NULL || needed == 0) {
-        return LMB_ERR_ARG;
-    }
-    if ((uintptr_t)memory % sizeof(uint64_t) != 0) {
-        return LMB_ERR_ALIGN;
-    }
-    if (bytes < needed) {
-        return LMB_ERR_CAPACITY;
+    const lmb_status status = check_room(out, memory, bytes, lmb_lattice_bytes(width, height));
+    if (status != LMB_OK) {
+        return status;
     }
     out->tile = (lmb_lattice_tile *)memory;
     out->divided = (uint8_t *)(out->tile + tiles_of(width, height));

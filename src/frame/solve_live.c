@@ -143,8 +143,8 @@ lmb_status lmb_render_live(float light[3], const lmb_render *r, lmb_band_scratch
     return status;
 }
 
-/* The shift of the segments towards a sky. Tiles of vertices and of samples have no neighbours, so it comes from the
- * place alone. */
+/* The shift of the segments towards a sky. Tiles of vertices and of samples have no neighbours, so it depends only
+ * on the place. */
 static float turn_at(lmb_vec3 place)
 {
     uint32_t bits[3];

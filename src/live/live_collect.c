@@ -62,15 +62,9 @@ size_t lmb_live_bytes(uint32_t faces, int32_t side, uint32_t elements)
 
 lmb_status lmb_live_init(lmb_live *out, uint32_t faces, int32_t side, uint32_t elements, void *memory, size_t bytes)
 {
-    const size_t needed = lmb_live_bytes(faces, side, elements);
-    if (out == NULL || memory == NULL || needed == 0) {
-        return LMB_ERR_ARG;
-    }
-    if ((uintptr_t)memory % sizeof(uint64_t) != 0) {
-        return LMB_ERR_ALIGN;
-    }
-    if (bytes < needed) {
-        return LMB_ERR_CAPACITY;
+    const lmb_status status = check_room(out, memory, bytes, lmb_live_bytes(faces, side, elements));
+    if (status != LMB_OK) {
+        return status;
     }
     const size_t points = live_slots(faces, side) + elements;
     memset(out, 0, sizeof *out);

@@ -17,9 +17,8 @@ uint64_t lmb_live_blocked(const lmb_kernels *kernels, lmb_live_scratch *scratch,
 /* Adds refined nodes to the cut for the near leaves in scratch->leaf. Returns 1 if it added any. */
 int lmb_live_come_near(lmb_live_scratch *scratch, const lmb_kernels *kernels, const lmb_live *live);
 
-/* As lmb_live_receive, and uses what earlier calls made near their points, which changes no result. Call
- * lmb_live_forget before the first of such calls, and again if the tree, the scene, a map or the contents of the
- * scratch changed. */
+/* Same result as lmb_live_receive, but reuses chunks that earlier calls made. Call lmb_live_forget before the first of
+ * these calls, and again if the tree, the scene, a map or the contents of the scratch changed. */
 lmb_status lmb_live_receive_again(float light[3], const lmb_kernels *kernels, lmb_live_scratch *scratch,
                                   const lmb_live *live, const lmb_bvh *bvh, const lmb_live_receiver *receiver);
 void lmb_live_forget(lmb_live_scratch *scratch);

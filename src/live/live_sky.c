@@ -25,15 +25,9 @@ size_t lmb_live_sky_bytes(uint32_t suns)
 
 lmb_status lmb_live_sky_init(lmb_live_sky *out, uint32_t suns, void *memory, size_t bytes)
 {
-    const size_t needed = lmb_live_sky_bytes(suns);
-    if (out == NULL || memory == NULL || needed == 0) {
-        return LMB_ERR_ARG;
-    }
-    if ((uintptr_t)memory % sizeof(uint64_t) != 0) {
-        return LMB_ERR_ALIGN;
-    }
-    if (bytes < needed) {
-        return LMB_ERR_CAPACITY;
+    const lmb_status status = check_room(out, memory, bytes, lmb_live_sky_bytes(suns));
+    if (status != LMB_OK) {
+        return status;
     }
     memset(out, 0, sizeof *out);
     const uintptr_t past = (uintptr_t)memory % CACHE_LINE;

@@ -77,9 +77,14 @@ status 0 compare land.pfm landfull.pfm
 check "it keeps the light: $(head -n 1 out.txt)" awk '
     { for (i = 1; i < NF; ++i) v[$i] = $(i + 1) } END { exit !(v["mean"] > 0.9 && v["mean"] < 1.1 && v["trim"] < 0.2) }' \
     out.txt
+status 2 render demo $small --gather live --error-bound 0.1 -o bound.pfm
+check "live light refuses a bound that it does not keep" grep -q -e '--gather live keeps no bound; use --gather full' err.txt
+check "and writes nothing" test ! -e bound.pfm
+status 0 render demo $small --gather live -v -o named.pfm
+check "-v names the way of gathering" grep -q -e '--gather live' err.txt
 for gone in half quarter; do
     status 2 render demo $small --gather $gone -o named.pfm
-    check "--gather $gone names what replaces it" grep -q -- "--gather: \`$gone\` was removed; use live" err.txt
+    check "--gather $gone names the replacement" grep -q -- "--gather: \`$gone\` was removed; use live" err.txt
     check "in one line" test "$(wc -l <err.txt)" -eq 1
 done
 drawn="--size 256x256 --exposure 0 --show indirect --shadow-map 64"

@@ -55,7 +55,7 @@ typedef struct option_row {
     size_t nones;        /* offset of an int for a light: 1 if the value is `none`; 0: `none` is not allowed */
     double low, high;
     const char *const *words; /* ends with NULL */
-    const char *const *gone;  /* words of earlier versions, each with what to use instead; ends with NULL. NULL: none */
+    const char *const *gone;  /* words of earlier versions, each followed by the replacement; ends with NULL */
     const int32_t *values;    /* of the words; NULL: their indices */
     int file;              /* OPTION_READS, OPTION_WRITES: the text names a file; 0: it does not */
     int (*parse)(const char *text, void *at); /* returns 1, or 0 if the text is invalid */

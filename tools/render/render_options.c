@@ -338,9 +338,12 @@ static void choose(render_options *o)
     }
 }
 
-#if !defined(OPTIONS_WITHOUT_HELP) /* the web page has no --budget */
-static int check_budget(const render_options *o, report *r)
+#if !defined(OPTIONS_WITHOUT_HELP) /* the web page has neither --budget nor --error-bound */
+static int check_choices(const render_options *o, report *r)
 {
+    if (o->conservative && o->gather_step == LMB_GATHER_LIVE) {
+        return report_fail(r, "--error-bound: --gather live keeps no bound; use --gather full");
+    }
     if (o->rate > 0.0f && !(o->budget_ms > 0.0f)) {
         return report_fail(r, "--budget rate: a speed goes only with ms, which it turns into work");
     }
@@ -359,12 +362,12 @@ static int check_budget(const render_options *o, report *r)
     return 1;
 }
 #else
-#define check_budget(o, r) 1
+#define check_choices(o, r) 1
 #endif
 
 static int check_together(const render_options *o, report *r)
 {
-    if (!check_budget(o, r)) {
+    if (!check_choices(o, r)) {
         return 0;
     }
     if (o->background.kind != BACKGROUND_WORLD && o->show > LMB_SHOW_IRRADIANCE) {

@@ -127,9 +127,14 @@ static void tell_how(const render_job *j)
     if (!j->o.view.is_verbose) {
         return;
     }
-    report_note(0, "%d threads of %s lanes; --shadow-map %d --tree %d --error %.3g --visibility %.3g; %.0f KiB",
-                j->workers.threads, lmb_kernels_name(f->kernels), (int)f->shadow_map, (int)f->tree.size,
-                (double)f->error, (double)f->visibility, (double)(j->bytes + j->many_lights.bytes) / 1024.0);
+    report_note(0, "%d threads of %s lanes; --gather %s --shadow-map %d --tree %d --error %.3g --visibility %.3g; "
+                   "%.0f KiB",
+                j->workers.threads, lmb_kernels_name(f->kernels),
+                f->gather_step == LMB_GATHER_LIVE       ? "live"
+                : f->gather_step == LMB_GATHER_ADAPTIVE ? "adaptive"
+                                                        : "full",
+                (int)f->shadow_map, (int)f->tree.size, (double)f->error, (double)f->visibility,
+                (double)(j->bytes + j->many_lights.bytes) / 1024.0);
     report_note(0, "%-13s %8.1f ms", "reading", j->load_s * 1e3);
     for (int i = 0; i < LMB_STAGE_DONE; ++i) {
         report_note(0, "%-13s %8.1f ms", stage_name(j, i), j->workers.stage_s[i] * 1e3);
