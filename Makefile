@@ -66,7 +66,7 @@ BENCH_SRC := $(sort $(wildcard tools/bench/*.c tools/hard/*.c))
 TOOL_SRC := $(sort $(filter-out $(wildcard tools/*/gen_*.c tools/*/main_*.c) $(BENCH_SRC),$(wildcard tools/*/*.c))) $(HOST_SRC)
 # Unit tests that take over a second each; `make check` leaves them out.
 SLOW_TESTS := adaptive bounce cut frame_init frames glossy gltf mix mix_cones mix_front mix_sources mix_stays multisample \
-              occlusion relief_light relief_ornate room_edges transfer tree zeros
+              occlusion relief_light relief_ornate room_edges sky transfer tree zeros
 TEST_SRC := $(sort $(wildcard $(foreach d,unit analytic truth lanes,tests/$(d)/test_*.c)))
 
 SCENES_SRC := $(filter-out tests/scenes/main_%,$(sort $(wildcard tests/scenes/*.c)))
@@ -381,7 +381,7 @@ check: $(CHECKS:%=check-%) ## the quick checks, one line each, and the sum; V=1 
 	@sh tests/scripts/sum.sh $(CHECKS:%=$(B)/check/%.log)
 
 MANY       := PREFIXES=20 MUTATIONS=200
-LONG       := LMB_LONG=1
+LONG       ?= LMB_LONG=1
 ALL_CHECKS := $(filter-out truth-small $(SKIP_CHECKS),$(SLOW_CHECKS) $(QUICK_CHECKS))
 check-all: ## the quick and the slow checks; links every program and the page (SKIP_CHECKS="cli hard" leaves some out)
 	+@$(MAKE) check CHECKS="$(ALL_CHECKS)" $(MANY) $(LONG)
@@ -453,7 +453,7 @@ hard: $(B)/hard ## the gallery of hard cases, and changes that must not change t
 	@$(RUN) $(B)/hard $(CASES)
 
 golden-orders: $(B)/golden-orders ## the golden pictures in pieces, in any order, on 1 to 8 threads (BACKENDS=all)
-	@$(RUN) $(B)/golden-orders$(EXE) $(if $(filter all,$(BACKENDS)),all)
+	@$(RUN) $(B)/golden-orders$(EXE) $(if $(filter all,$(BACKENDS)),all) $(if $(filter 1,$(LMB_LONG)),half)
 
 replay: $(B)/replay ## the fuzz targets on their corpus
 	@$(RUN) $(B)/replay tests/fuzz/corpus/*/*
@@ -558,7 +558,7 @@ examples: $(LIB) ## the programs of tests/examples compile, run and print the ex
 	@$(IN_SH) tests/scripts/examples.sh
 
 examples-tiny: ## the same in the tiny configuration
-	+@$(MAKE) examples CONFIG=tiny
+	+@$(MAKE) examples CONFIG=tiny BUILD='$(BUILD)/plain' CFLAGS="-O1 $(PLAIN_KERNELS)"
 
 own: $(LIB) $(TOOL) ## make run-NAME with your own programs, its error message, and main_scene.c on this machine
 	+@MAKE='$(MAKE)' BUILD='$(BUILD)' B='$(B)' TOOL='$(TOOL)' sh tests/scripts/own.sh

@@ -41,10 +41,23 @@ extern int test_passed, test_failed, test_skipped;
         printf("\n"); \
     } while (0)
 
-/* How many random tries: `many` in make check-all, which sets LMB_LONG, `few` otherwise. */
+/* The value of LMB_LONG: 0 in make check, 1 in make check-all, 2 in make nightly. */
+static inline int test_length(void)
+{
+    const char *set = getenv("LMB_LONG");
+    return set != NULL ? atoi(set) : 0;
+}
+
+/* How many random tries: `few` in make check, `many` in make nightly. make check-all makes a quarter of `many`, or `few`
+ * if that is more. If `many` is less than `few`, it is a step, and make check-all uses `many` too. */
 static inline int tries(int few, int many)
 {
-    return getenv("LMB_LONG") != NULL ? many : few;
+    const int quarter = (many + 3) / 4;
+    switch (test_length()) {
+    case 0: return few;
+    case 1: return many < few ? many : quarter > few ? quarter : few;
+    default: return many;
+    }
 }
 
 /* Repeatable 32-bit random numbers (PCG XSH-RR, O'Neill 2014). */

@@ -19,11 +19,12 @@ static const feature features[] = {
     {"bounced, a tree, draft", LMB_SHOW_FULL, LMB_QUALITY_DRAFT, 1, 0},
 };
 static const int32_t widths[] = {80, 160, 320};
-enum { FEATURES = sizeof features / sizeof features[0], WIDTHS = sizeof widths / sizeof widths[0], DIRECT = 160 };
+enum { FEATURES = sizeof features / sizeof features[0], WIDTHS = sizeof widths / sizeof widths[0], DIRECT = 160, MAP = 128 };
 
-/* Width of the drawn frames with other light or samples; main_torus_few.c sets a smaller one. */
+/* Width and shadow map of the drawn frames with other light or samples; main_torus_few.c sets smaller ones. */
 #ifndef OTHERS
 #define OTHERS 160
+#define OTHERS_MAP MAP
 #endif
 
 static uint64_t memory[350000];
@@ -49,7 +50,7 @@ static lmb_frame_settings settings_of(const feature *f, int32_t width)
     s.quality = f->quality;
     s.samples = f->samples;
     s.by_bands = f->by_bands;
-    s.shadow_map = 128;
+    s.shadow_map = MAP;
     return s;
 }
 
@@ -81,12 +82,14 @@ int main(void)
     port_put("\n");
     for (int i = 0; i < FEATURES; ++i)
         for (int k = 0; k < WIDTHS; ++k) {
-            const lmb_frame_settings s = settings_of(&features[i], widths[k]);
+            lmb_frame_settings s = settings_of(&features[i], widths[k]);
             port_put(features[i].name);
             say_count(" ", (uint32_t)widths[k]);
             say_count(" bytes ", (uint32_t)lmb_frame_bytes(&s));
-            if (widths[k] == (i == 0 ? DIRECT : OTHERS))
+            if (widths[k] == (i == 0 ? DIRECT : OTHERS)) {
+                s.shadow_map = i == 0 ? MAP : OTHERS_MAP;
                 draw(&features[i], &s);
+            }
             port_put("\n");
         }
     return 0;

@@ -5,7 +5,7 @@ pit
 floor
 photo
 
-# If stderr is no terminal, bake prints a line every ten seconds. Two bakes start, stand still for most of the first
+# If stderr is no terminal, bake prints a line every ten seconds. Two bakes start, stand still from half a second to
 # nine seconds, and end a second after their first line. They run in the background during the other tests.
 begun=$(date +%s%N)
 for name in log quiet; do
@@ -16,7 +16,7 @@ done
 # passed TENTHS: checks that so many tenths of a second have passed.
 passed() { [ $((($(date +%s%N) - begun) / 100000000)) -ge "$1" ]; }
 {
-    until passed 15; do sleep 0.1; done
+    until passed 5 && [ -s log.pid ] && [ -s quiet.pid ]; do sleep 0.1; done
     kill -s STOP $(cat log.pid quiet.pid)
     until passed 90; do sleep 0.1; done
     kill -s CONT $(cat log.pid quiet.pid)

@@ -10,7 +10,7 @@ if ! missing=$(sh tests/scripts/tools.sh need arm-none-eabi-gcc qemu-system-arm 
     exit 1
 fi
 
-here=$BUILD/tiny there=$BUILD/cortex-m/tiny rom=524288
+here=$BUILD/plain/tiny there=$BUILD/cortex-m/tiny rom=524288
 mkdir -p "$here" "$there"
 
 # A wavy tube, tied in a trefoil knot, on a base.
@@ -37,7 +37,8 @@ od -An -v -tx4 "$here/knot.lmr" | sed 's/ *\([0-9a-f][0-9a-f]*\)/0x\1,/g' >"$her
 for to in "$here" "$there"; do
     cmp -s "$here/statue.new" "$to/statue.inc" || cp "$here/statue.new" "$to/statue.inc"
 done
-check "for this machine" $MAKE "$here/statue" PORT=host CONFIG=tiny BUILD="$BUILD"
+plain="-DLMB_HAVE_AVX512=0 -DLMB_HAVE_AVX2=0 -DLMB_HAVE_SSE2=0" # as in tiny.sh
+check "for this machine" $MAKE "$here/statue" PORT=host CONFIG=tiny BUILD="$BUILD/plain" CFLAGS="-O1 $plain"
 m='PORT=cortex-m CONFIG=tiny CFLAGS=-Os LDFLAGS='
 check "for a Cortex-M" $MAKE "$there/statue" $m BUILD="$BUILD/cortex-m"
 [ $failed -eq 0 ] || finish

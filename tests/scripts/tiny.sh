@@ -9,35 +9,39 @@ if ! missing=$(sh tests/scripts/tools.sh need arm-none-eabi-gcc qemu-system-arm 
     exit 1
 fi
 
-check "the demo for this machine" $MAKE "$BUILD/tiny/demo" PORT=host CONFIG=tiny BUILD="$BUILD"
+# Here only the pictures count, so this build is plain C; statue.sh and `make examples-tiny` share it.
+plain="-DLMB_HAVE_AVX512=0 -DLMB_HAVE_AVX2=0 -DLMB_HAVE_SSE2=0"
+make_here() { $MAKE "$@" PORT=host CONFIG=tiny BUILD="$BUILD/plain" CFLAGS="-O1 $plain"; }
+here=$BUILD/plain/tiny
+check "the demo for this machine" make_here "$here/demo"
 check "the demo for a Cortex-M4F" $MAKE "$BUILD/cortex-m/tiny/demo" PORT=cortex-m CONFIG=tiny BUILD="$BUILD/cortex-m" \
     CFLAGS=-Os LDFLAGS=
 [ $failed -eq 0 ] || finish
 
-"$BUILD/tiny/demo" >"$BUILD/tiny/demo.out"
+"$here/demo" >"$here/demo.out"
 check "exit status here: $?" test $? -eq 0
 $MAKE run-demo PORT=cortex-m CONFIG=tiny BUILD="$BUILD/cortex-m" CFLAGS=-Os LDFLAGS= >"$BUILD/cortex-m/tiny/demo.out"
 check "exit status on the Cortex-M4F: $?" test $? -eq 0
 
 echo "here:"
-sed 's/^/  /' "$BUILD/tiny/demo.out"
+sed 's/^/  /' "$here/demo.out"
 echo "Cortex-M4F:"
 sed 's/^/  /' "$BUILD/cortex-m/tiny/demo.out"
 hash_of() { awk '/^demo-/ { print $2 }' "$1"; }
-here=$(hash_of "$BUILD/tiny/demo.out")
+is=$(hash_of "$here/demo.out")
 there=$(hash_of "$BUILD/cortex-m/tiny/demo.out")
-check "hashes differ: $here here, $there there" test -n "$here" -a "$here" = "$there"
+check "hashes differ: $is here, $there there" test -n "$is" -a "$is" = "$there"
 
 # A torus, with the bytes of the table of platform/README.md, and smaller pictures.
 torus_of() { sed -n 's/ bytes .*instructions [0-9]*//p' "$1"; }
-check "the torus for this machine" $MAKE "$BUILD/tiny/torus_few" PORT=host CONFIG=tiny BUILD="$BUILD"
+check "the torus for this machine" make_here "$here/torus_few"
 check "the torus for a Cortex-M4F" $MAKE "$BUILD/cortex-m/tiny/torus_few" PORT=cortex-m CONFIG=tiny BUILD="$BUILD/cortex-m" \
     CFLAGS=-Os LDFLAGS=
 [ $failed -eq 0 ] || finish
-"$BUILD/tiny/torus_few" >"$BUILD/tiny/torus_few.out"
+"$here/torus_few" >"$here/torus_few.out"
 $MAKE run-torus_few PORT=cortex-m CONFIG=tiny BUILD="$BUILD/cortex-m" CFLAGS=-Os LDFLAGS= >"$BUILD/cortex-m/tiny/torus_few.out"
 sed 's/^/  /' "$BUILD/cortex-m/tiny/torus_few.out"
-check "the torus differs" test "$(torus_of "$BUILD/tiny/torus_few.out")" = "$(torus_of "$BUILD/cortex-m/tiny/torus_few.out")"
+check "the torus differs" test "$(torus_of "$here/torus_few.out")" = "$(torus_of "$BUILD/cortex-m/tiny/torus_few.out")"
 check "five pictures of the torus" test "$(torus_of "$BUILD/cortex-m/tiny/torus_few.out" | grep -c LMB_OK)" -eq 5
 taken=$(sed -n 's/^direct 160 .*instructions \([0-9]*\) .*/\1/p' "$BUILD/cortex-m/tiny/torus_few.out")
 check "${taken:-0} instructions for direct light on the torus, bound 32 million" test "${taken:-0}" -gt 1000000 -a "${taken:-0}" -le 32000000
@@ -46,15 +50,15 @@ check "${taken:-0} instructions for direct light on the torus, bound 32 million"
 # machines.
 scene=$BUILD/cortex-m/tiny/packed_scene.c
 check "the demo is packed" "$TOOL" pack demo -o "$scene" --name scene_words -q
-$MAKE run-scene PORT=host CONFIG=tiny BUILD="$BUILD" PACKED="$scene" >"$BUILD/tiny/scene.out" 2>&1
+make_here run-scene PACKED="$scene" >"$here/scene.out" 2>&1
 check "exit status of the packed scene here: $?" test $? -eq 0
 $MAKE run-scene PORT=cortex-m CONFIG=tiny BUILD="$BUILD/cortex-m" CFLAGS=-Os LDFLAGS= PACKED="$scene" \
     >"$BUILD/cortex-m/tiny/scene.out" 2>&1
 check "exit status of the packed scene on the Cortex-M4F: $?" test $? -eq 0
 sed 's/^/  /' "$BUILD/cortex-m/tiny/scene.out"
 scene_of() { sed -n 's/^scene-160x120-rgb565 //p' "$1"; }
-here=$(scene_of "$BUILD/tiny/scene.out") there=$(scene_of "$BUILD/cortex-m/tiny/scene.out")
-check "packed scene: hashes differ: $here here, $there there" test -n "$here" -a "$here" = "$there"
+is=$(scene_of "$here/scene.out") there=$(scene_of "$BUILD/cortex-m/tiny/scene.out")
+check "packed scene: hashes differ: $is here, $there there" test -n "$is" -a "$is" = "$there"
 row=$(sed -n 's/^bounced, fixed groups 160 bytes \([0-9]*\).*/\1/p' "$BUILD/cortex-m/tiny/torus_few.out")
 kib=$(awk -F ' *[|] *' '$2 == "bounced light, fixed groups" { print $4 }' platform/README.md)
 check "its frame takes what the torus does, $row bytes, $kib KiB in platform/README.md" \

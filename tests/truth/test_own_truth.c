@@ -52,11 +52,15 @@ static void check_errors(const own_row *row, const image *truth, own_drawn *by_d
               trim[1], trim[0]);
 }
 
-/* Turning the world changes neither the picture nor the work. */
-static void check_turns(const own_row *row, const image *truth, const own_drawn *upright)
+/* Turning the world changes neither the picture nor the work. make check-all turns each scene once, with another seed
+ * than the scene before, and make nightly twice. */
+static void check_turns(const own_row *row, int number, const image *truth, const own_drawn *upright)
 {
     enum { TURNS = 2 };
     for (int seed = 1; seed <= TURNS; ++seed) {
+        if (test_length() < 2 && seed - 1 != number % TURNS) {
+            continue;
+        }
         own_drawn d;
         scene_place place = scene_as_it_is();
         scene_turn_any(&place, (uint64_t)seed);
@@ -87,7 +91,7 @@ void test_own_truth(void)
         own_drawn upright = {0};
         if (own_truth(&truth, rows[i].file)) {
             check_errors(&rows[i], &truth, &upright);
-            check_turns(&rows[i], &truth, &upright);
+            check_turns(&rows[i], i, &truth, &upright);
             image_free(&truth);
         }
     }

@@ -1,7 +1,8 @@
 /* test_small_truth.c: compares six small scenes with our own path tracer, which shares no code with src/. [V25]
  *
  * Bounced light is in tests/truth/small, 64 x 64 pixels each; `make small-truth` recomputes it. Direct light is exact
- * and traced here. The test needs nothing outside the repository. LMB_TRUTH_ALL also draws all scenes by `best`. */
+ * and traced here. The test needs nothing outside the repository. make check-all also draws quick scenes by
+ * `best`, and make nightly all scenes. */
 #include "../own_scene.h"
 #include <math.h>
 
@@ -106,7 +107,7 @@ static void check_direct_light(const small_row *row)
 static void check_bounced_light(const small_row *row, const image *truth)
 {
     const scene_place place = scene_as_it_is();
-    const int count = row->best_is_slow && getenv("LMB_TRUTH_ALL") == NULL ? PRESETS - 1 : PRESETS;
+    const int count = test_length() > row->best_is_slow ? PRESETS : PRESETS - 1;
     for (int q = 0; q < count; ++q) {
         const own_how how = {presets[q], "indirect", SIDE, row->bounces, truth, surface};
         own_drawn d;
