@@ -1,4 +1,4 @@
-/* live_phases.c: light of single points at the samples of a grid, and between them: phases of adaptive.c. Layer 8.
+/* live_phases.c: light of single points at the samples of a grid, and between them. Layer 8.
  *
  * r->light is the phase, r->progress the next piece: two rows of tiles. In a phase a piece writes only its own samples,
  * and reads from others only results of earlier phases. So any order and number of threads gives the same bytes. Pixels
@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "../base/vec.h"
+#include "../bounce/points.h"
 #include "../live/live_part.h"
 #include "../raster/tile.h"
 #include "../raster/triangle.h"
@@ -27,7 +28,7 @@ enum {
     SLOPES,
     PHASES
 };
-enum { ROWS = 2 };
+enum { ROWS = 2, PIECE_UNITS = 64 };
 
 #define REACH 3 /* px each way within which a pixel that no sample explains needs a lit pixel */
 
@@ -125,7 +126,7 @@ static lmb_status light_row(const lmb_render *r, lmb_band_scratch *s, const live
 
 /* --- phases ------------------------------------------------------------------------------------------------------- */
 
-int32_t lmb_render_live_pieces(const lmb_render *r) { return (band_count(&r->frame.view) + ROWS - 1) / ROWS; }
+static int32_t pieces_of(const lmb_render *r) { return (band_count(&r->frame.view) + ROWS - 1) / ROWS; }
 
 static lmb_status do_row(const lmb_render *r, lmb_band_scratch *s, const live_grid *g, int32_t row)
 {
@@ -145,7 +146,7 @@ static lmb_status do_row(const lmb_render *r, lmb_band_scratch *s, const live_gr
     return LMB_OK;
 }
 
-lmb_status lmb_render_live_piece(const lmb_render *r, lmb_band_scratch *s, int32_t i)
+static lmb_status do_piece(const lmb_render *r, lmb_band_scratch *s, int32_t i)
 {
     const live_grid g = grid_of(r);
     lmb_status status = LMB_OK;
@@ -167,12 +168,41 @@ NOINLINE void set_mean(lmb_render *r)
 }
 
 /* Advances to the next phase. */
-lmb_status lmb_render_live_on(lmb_render *r)
+lmb_status lmb_render_samples_on(lmb_render *r)
 {
+    r->progress = 0;
     if (r->light == SURFACES) {
         set_mean(r);
     }
     return ++r->light < PHASES ? LMB_MORE : LMB_OK;
+}
+
+lmb_status lmb_render_samples(lmb_render *r, int32_t units)
+{
+    lmb_band_scratch *s = r->frame.scratch;
+    for (int32_t n = 0; (n == 0 || n + PIECE_UNITS <= units) && (int32_t)r->progress < pieces_of(r); n += PIECE_UNITS) {
+        memset(&s->counts, 0, sizeof s->counts);
+        const lmb_status status = do_piece(r, s, (int32_t)r->progress++);
+        if (status != LMB_OK) {
+            return status;
+        }
+        add_counts(r->frame.stats, &s->counts);
+    }
+    return (int32_t)r->progress < pieces_of(r) ? LMB_MORE : lmb_render_samples_on(r);
+}
+
+lmb_status lmb_render_samples_part(const lmb_render *r, lmb_band_scratch *s, int32_t part, int32_t parts,
+                                   lmb_stats *stats)
+{
+    int64_t first, past;
+    lmb_status status = LMB_OK;
+    memset(&s->counts, 0, sizeof s->counts);
+    share_out(&first, &past, pieces_of(r), part, parts);
+    for (int64_t i = first; i < past && status == LMB_OK; ++i) {
+        status = do_piece(r, s, (int32_t)i);
+    }
+    add_counts(stats, &s->counts);
+    return status;
 }
 
 /* --- pixels that no sample explains ------------------------------------------------------------------------------- */
