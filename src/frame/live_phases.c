@@ -30,7 +30,9 @@ enum {
 };
 enum { ROWS = 2, PIECE_UNITS = 64 };
 
-#define REACH 3 /* px each way within which a pixel that no sample explains needs a lit pixel */
+/* px each way within which a pixel that no sample explains needs a lit pixel */
+#define MAX_REACH_PX 3
+#define FINE_REACH_PX 2 /* with more segments than draft has */
 
 static live_grid grid_of(const lmb_render *r) { return lmb_live_grid_of(&r->frame.lattice, r->frame.live->strata); }
 
@@ -212,7 +214,7 @@ typedef struct sources {
     const lmb_tile *tile;
     const lmb_irradiance *light;
     uint64_t known;
-    int count;
+    int count, reach;
     const lmb_live_sample *sample[GRID_SAMPLES + 3];
     int8_t x[GRID_SAMPLES + 3], y[GRID_SAMPLES + 3];
 } sources;
@@ -230,7 +232,10 @@ static void add_around(around *a, const float light[3], float weight)
     }
 }
 
-static int is_within(int dx, int dy) { return dx >= -REACH && dx <= REACH && dy >= -REACH && dy <= REACH; }
+static int is_within(const sources *s, int dx, int dy)
+{
+    return dx >= -s->reach && dx <= s->reach && dy >= -s->reach && dy <= s->reach;
+}
 
 /* Weight of a source at an offset of dx, dy px. */
 static float nearness(int dx, int dy)
@@ -239,7 +244,7 @@ static float nearness(int dx, int dy)
     return 1.0f / (d2 * d2);
 }
 
-/* Averages the sources within REACH. */
+/* Averages the sources within reach. */
 static around around_of(const sources *s, int k)
 {
     const lmb_live_sample own = lmb_live_grid_surface(s->tile, k);
@@ -248,7 +253,7 @@ static around around_of(const sources *s, int k)
     memset(&a, 0, sizeof a);
     for (int i = 0; i < s->count; ++i) {
         const int dx = s->x[i] - x, dy = s->y[i] - y;
-        const float weight = is_within(dx, dy) ? live_agree(&own, s->sample[i]) * nearness(dx, dy) : 0.0f;
+        const float weight = is_within(s, dx, dy) ? live_agree(&own, s->sample[i]) * nearness(dx, dy) : 0.0f;
         if (weight > 0.0f) {
             add_around(&a, s->sample[i]->light, weight);
         }
@@ -256,7 +261,7 @@ static around around_of(const sources *s, int k)
     for (uint64_t bits = s->known; bits != 0; bits &= bits - 1) {
         const int from = lowest_bit_64(bits), dx = from % LMB_TILE - x, dy = from / LMB_TILE - y;
         const lmb_live_sample other = lmb_live_grid_surface(s->tile, from);
-        const float weight = is_within(dx, dy) ? live_agree(&own, &other) * nearness(dx, dy) : 0.0f;
+        const float weight = is_within(s, dx, dy) ? live_agree(&own, &other) * nearness(dx, dy) : 0.0f;
         if (weight > 0.0f) {
             const float light[3] = {s->light->rgb[0][from], s->light->rgb[1][from], s->light->rgb[2][from]};
             add_around(&a, light, weight);
@@ -286,13 +291,14 @@ static void set_sources(sources *out, const live_grid *g, const lmb_tile *tile, 
     }
 }
 
-/* Lights some of the remaining pixels individually, so that each pixel has a source within REACH. */
+/* Lights some of the remaining pixels individually, so that each pixel has a source within reach. */
 static lmb_status light_left(lmb_irradiance *inout, const lmb_render *r, lmb_band_scratch *s, const live_grid *g,
                              uint64_t left)
 {
     lmb_status status = LMB_OK;
     sources from;
     set_sources(&from, g, &s->tile, inout);
+    from.reach = r->frame.live->strata > LMB_LIVE_STRATA / 2 ? FINE_REACH_PX : MAX_REACH_PX;
     for (uint64_t bits = left; bits != 0 && status == LMB_OK; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
         if (!(around_of(&from, k).sum > 0.0f)) {
