@@ -253,7 +253,7 @@ extern "C" {
  *
  * With zeros in the settings a room with one spot at 640x480 takes 16 MiB and 116 bytes a triangle: the shadow map 6
  * MiB, the tree 5, the viewer's depth, ids and picture 3, a thread 2. LMB_QUALITY_DRAFT takes 12 MiB, _BEST 86;
- * LMB_GATHER_LIVE adds 21 MiB. At 160x120 in the tiny configuration, with 16-bit pixels by bands, a map of 128 x
+ * LMB_GATHER_LIVE adds 30 MiB. At 160x120 in the tiny configuration, with 16-bit pixels by bands, a map of 128 x
  * 128 and 400 points, LMB_QUALITY_FIXED takes 215 KiB.
  * Cost: a pass over the lights. */
 size_t lmb_frame_bytes(const lmb_frame_settings *settings);
