@@ -65,7 +65,7 @@ HOST_SRC := $(addprefix platform/host/,host.c pool.c process.c programs.c count.
 BENCH_SRC := $(sort $(wildcard tools/bench/*.c tools/hard/*.c))
 TOOL_SRC := $(sort $(filter-out $(wildcard tools/*/gen_*.c tools/*/main_*.c) $(BENCH_SRC),$(wildcard tools/*/*.c))) $(HOST_SRC)
 # Unit tests that take over a second each; `make check` leaves them out.
-SLOW_TESTS := adaptive bounce cut frame_init frames glossy gltf mix mix_cones mix_front mix_sources mix_stays multisample \
+SLOW_TESTS := bounce cut frame_init frames glossy gltf live_frames mix mix_cones mix_front mix_sources mix_stays multisample \
               occlusion relief_light relief_ornate room_edges sky transfer tree zeros
 TEST_SRC := $(sort $(wildcard $(foreach d,unit analytic truth lanes,tests/$(d)/test_*.c)))
 

@@ -7,7 +7,7 @@ static inline void gather_live(lmb_frame *inout)
 {
     static lmb_live live;
     static lmb_live_scratch live_scratch;
-    static uint64_t lattice_memory[FRAME * FRAME / 64 * (sizeof(lmb_lattice_tile) / 8 + 4)];
+    static uint64_t lattice_memory[FRAME * FRAME / 64 * 192];
     static uint64_t live_memory[FACES * MAP * MAP * 3 + ELEMENTS * 32 + FACES * 1024 + 4096];
     inout->gather_step = LMB_GATHER_LIVE;
     inout->live = &live;

@@ -11,24 +11,12 @@ typedef struct lmb_radiance {
     float rgb[3][LMB_TILE_PIXELS];
 } lmb_radiance;
 
-/* State of LMB_GATHER_ADAPTIVE for a tile of the frame: input of the gather at the pixels, and their light. */
-typedef struct lmb_lattice_tile {
-    float position[3][LMB_TILE_PIXELS], face[3][LMB_TILE_PIXELS], normal[3][LMB_TILE_PIXELS];
-    lmb_irradiance light;
-    uint32_t id[LMB_TILE_PIXELS];
-    uint64_t shown, known, wanted, late; /* pixels with a surface; those gathered; to gather next; to interpolate */
-    uint64_t early; /* known before the last phase: the pixels that other windows may read in that phase */
-    int32_t flat;                  /* 1: all shown pixels lie on one plane and are shaded with its normal */
-} lmb_lattice_tile;
-
-/* The pixels of a frame at which bounced light is gathered: first every 8th each way, then in cells of 4, 2 and 1 px if
- * the light varies. Laid out by lmb_lattice_init. */
+/* The pixels of a frame at which LMB_GATHER_LIVE lights single points: first every 16th each way, then in cells of 8, 4
+ * and 2 px if the light varies. Laid out by lmb_lattice_init. */
 typedef struct lmb_lattice {
-    lmb_lattice_tile *tile; /* by rows of the frame's tiles */
-    uint8_t *divided;       /* of each cell of 8, 4 and 2 px: 1 if it is divided */
-    int32_t width, height;  /* of the frame, px */
-    float mean;             /* light of the first samples, W/m2, R + G + B */
-    float split;            /* cells are divided if (surplus / 3 of the mean)^2 x px^2 is over this */
+    void *tile;            /* the samples of the frame's tiles, by rows */
+    int32_t width, height; /* of the frame, px */
+    float mean;            /* light of the first samples, W/m2, R + G + B */
 } lmb_lattice;
 
 #ifdef __cplusplus
@@ -38,7 +26,7 @@ extern "C" {
 /* lmb_lattice_bytes: memory for a lattice of a frame of width x height pixels; 0 if a side is under 1 or over
  * LMB_MAX_SIDE.
  * lmb_lattice_init: lay out a lattice in `memory`, which is aligned as for a uint64_t. Returns LMB_OK, LMB_ERR_ARG,
- * LMB_ERR_ALIGN or LMB_ERR_CAPACITY. Both are missing in builds without trees. */
+ * LMB_ERR_ALIGN or LMB_ERR_CAPACITY. Both are missing in builds without live.h. */
 size_t lmb_lattice_bytes(int32_t width, int32_t height);
 lmb_status lmb_lattice_init(lmb_lattice *out, int32_t width, int32_t height, void *memory, size_t bytes);
 

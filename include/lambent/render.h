@@ -39,10 +39,11 @@
 /* The part of the light to write. Linear formats receive radiance (SHOW_IRRADIANCE: W/m2, before the albedo). */
 enum { LMB_SHOW_FULL = 0, LMB_SHOW_DIRECT = 1, LMB_SHOW_INDIRECT = 2, LMB_SHOW_IRRADIANCE = 3 };
 
-/* Values of gather_step: samples lie 8 px apart, and closer if light or surfaces vary. Pixels between samples are
- * interpolated with the gradients of the samples. The picture is a function of scene, view and settings; order, threads
- * and bands do not change it. */
-enum { LMB_GATHER_ADAPTIVE = 8, LMB_GATHER_LIVE = 16 /* up to 16 px apart, by lmb_live */ };
+/* A value of gather_step: lmb_live lights single points, up to 16 px apart, and closer if light or surfaces vary. The
+ * pixels between them are interpolated with the gradients of the light. The picture is a function of scene, view and
+ * settings; order, threads and bands do not change it. If you set gather_many_lights and the many lights are not only
+ * suns, each pixel is lit instead. */
+enum { LMB_GATHER_LIVE = 16 };
 
 /* Scratch for frame.samples > 1: the samples of one band. 19 KiB, and the memory of `eye`. */
 typedef struct lmb_multisample {
@@ -73,9 +74,8 @@ typedef struct lmb_band_scratch {
     lmb_radiance radiance;
     lmb_stats counts; /* pairs and segments, added to by lmb_render_band: zero it yourself */
     lmb_many_lights_scratch many_lights;
-    lmb_tile together;               /* pixels of several tiles or samples, gathered as one tile */
-    uint16_t pixel[LMB_TILE_PIXELS]; /* LMB_GATHER_ADAPTIVE: their numbers in their tiles */
-    lmb_irradiance between;          /* LMB_GATHER_LIVE: bounced light of a tile's pixels */
+    lmb_tile together;      /* pixels of several samples, or vertices, gathered as one tile */
+    lmb_irradiance between; /* LMB_GATHER_LIVE: bounced light of a tile's pixels */
     lmb_glossy glossy; /* for scenes with glossy lobes */
     lmb_multisample *multisample; /* for frame.samples > 1 */
     lmb_live_scratch *live; /* for LMB_GATHER_LIVE */
@@ -110,8 +110,7 @@ typedef struct lmb_frame {
                               a transfer. Emitted light that reaches a surface directly is always included */
     int32_t truncated;     /* 1: light reflected more than `bounces` times is missing. 0: if `bounces` is over 1, it is
                               estimated, up to LMB_MAX_BOUNCES: lmb_elements_rest */
-    int32_t gather_step;   /* 1 (or 0): bounced light is gathered at each pixel; or LMB_GATHER_ADAPTIVE or
-                              LMB_GATHER_LIVE, with `lattice` */
+    int32_t gather_step;   /* 1 (or 0): bounced light is gathered at each pixel; or LMB_GATHER_LIVE, with `lattice` */
     int32_t samples;       /* coverage and direct light, samples a pixel: 1 (or 0), 4, 8 or 16, with
                               scratch.multisample; the picture is their mean. Bounced light is gathered once for each
                               surface of a pixel, but lobes only if some pixel centre shows the surface. Each band draws
@@ -128,7 +127,7 @@ typedef struct lmb_frame {
     lmb_transfer_light transfer_light;   /* laid out for `transfer`, with the scene's materials */
     lmb_bvh bvh; /* LMB_OCCLUSION_EXACT, and shadows of many_lights; triangle NULL: many_lights cast none */
     lmb_elements elements; /* for bounces > 1, bounced many_lights, and emissive materials; data NULL: none of these */
-    lmb_lattice lattice; /* LMB_GATHER_ADAPTIVE and _LIVE: of the view's size; tile NULL: none */
+    lmb_lattice lattice; /* LMB_GATHER_LIVE: of the view's size; tile NULL: none */
     lmb_live *live; /* LMB_GATHER_LIVE, with LMB_GROUP_CUT: for all faces of the maps and all elements; NULL: none */
     lmb_live_sky *live_sky; /* for many_lights that are only suns; NULL: none */
     lmb_target eye;     /* depth and ids of the whole frame; if memory is short, of a strip of some bands of 8 rows: the
@@ -240,7 +239,7 @@ typedef enum lmb_stage {
     LMB_STAGE_GROUPS,
     LMB_STAGE_BOUNCES,
     LMB_STAGE_VIEW,
-    LMB_STAGE_SAMPLES, /* LMB_GATHER_ADAPTIVE; other frames go on to LMB_STAGE_BANDS at once */
+    LMB_STAGE_SAMPLES, /* LMB_GATHER_LIVE; other frames go on to LMB_STAGE_BANDS at once */
     LMB_STAGE_BANDS,
     LMB_STAGE_DONE
 } lmb_stage;
@@ -254,7 +253,7 @@ extern "C" {
  *
  * With zeros in the settings a room with one spot at 640x480 takes 16 MiB and 116 bytes a triangle: the shadow map 6
  * MiB, the tree 5, the viewer's depth, ids and picture 3, a thread 2. LMB_QUALITY_DRAFT takes 12 MiB, _BEST 86;
- * LMB_GATHER_ADAPTIVE adds 14 MiB. At 160x120 in the tiny configuration, with 16-bit pixels by bands, a map of 128 x
+ * LMB_GATHER_LIVE adds 30 MiB. At 160x120 in the tiny configuration, with 16-bit pixels by bands, a map of 128 x
  * 128 and 400 points, LMB_QUALITY_FIXED takes 215 KiB.
  * Cost: a pass over the lights. */
 size_t lmb_frame_bytes(const lmb_frame_settings *settings);
@@ -282,7 +281,7 @@ lmb_status lmb_render_begin(lmb_render *r, const lmb_frame *frame);
 /* lmb_render_step: do up to `units` units of work, at least one.
  *
  * A unit is 1,024 triangles of a draw, a row of shadow-map tiles, or 64 elements or receivers of one bounce. A band
- * counts as 8 units, a window of 64 x 64 px of LMB_STAGE_SAMPLES as 64. If `eye` is smaller than the frame, the first
+ * counts as 8 units, two rows of tiles of LMB_STAGE_SAMPLES as 64. If `eye` is smaller than the frame, the first
  * band of a strip also draws the whole scene. The discs of one face, the grouping, the BVH and building the elements
  * cannot be divided: each is one unit.
  * Returns LMB_MORE, LMB_OK when the frame is done, or an error of the stage. */

@@ -115,8 +115,6 @@ typedef struct lmb_cut_params {
     const lmb_irradiance *beside; /* or NULL: further light of the pixels, for `error` and `visibility`; may be the
                                      irradiance that is added to */
     float lower;                  /* light that every pixel has in addition, W/m2, R + G + B */
-    int32_t spread;               /* 1: the pixels lie apart: nodes entirely behind a pixel are not tested, and nodes
-                                     that one triangle hides from all pixels are not divided, which changes the cut */
     lmb_glossy *glossy;           /* the tile's lobes, to which the reflection of the nodes is added; NULL: none */
     const lmb_view *view;         /* the pixels' view: a pixel within rounding of a wall's plane counts as on the eye's
                                      side. NULL: such a pixel gets no light from that wall */

@@ -5,7 +5,6 @@
 #include "../base/poly.h"
 #include "../base/vec.h"
 #include "../live/live_part.h"
-#include "lattice.h"
 #include "stages.h"
 #include "requires.h"
 
@@ -46,15 +45,8 @@ NOINLINE lmb_status light_pixels(const lmb_render *r, lmb_band_scratch *s, const
 /* Bounced light from samples of the resolved tile's frame; NULL: it is gathered at each pixel. */
 static lmb_status sampled_light(const lmb_irradiance **out, const lmb_render *r, lmb_band_scratch *s)
 {
-    *out = NULL;
-    if (lights_points(r)) {
-        *out = &s->between;
-        return lmb_render_live_tile(&s->between, r, s);
-    }
-    if (requires_samples(r)) {
-        *out = &lattice_tile(&r->frame.lattice, s->tile.x / LMB_TILE, s->tile.y / LMB_TILE)->light;
-    }
-    return LMB_OK;
+    *out = requires_samples(r) ? &s->between : NULL;
+    return requires_samples(r) ? lmb_render_live_tile(&s->between, r, s) : LMB_OK;
 }
 
 /* Lights a band from the depth and ids in `window`. */

@@ -39,7 +39,7 @@ void lmb_render_defaults(lmb_frame *f)
     f->error = f->error != 0.0f ? f->error : even ? EVEN_ERROR : DEFAULT_ERROR;
     f->visibility = f->visibility != 0.0f ? f->visibility : even ? EVEN_VISIBLE : DEFAULT_VISIBILITY;
     f->gather_step = f->gather_step != 0 && requires_bounce(f) ? f->gather_step : 1;
-    if (takes_lattice(f->gather_step) && requires_transfer(f)) {
+    if (f->gather_step == LMB_GATHER_LIVE && requires_transfer(f)) {
         f->gather_step = 1; /* baked light costs less per pixel than a sample */
     }
 }

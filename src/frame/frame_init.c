@@ -31,8 +31,8 @@ static lmb_status check(const lmb_frame_settings *s)
         s->show > LMB_SHOW_IRRADIANCE || s->quality < LMB_QUALITY_DEFAULT || s->quality > LMB_QUALITY_FIXED ||
         s->bounces < 0 || s->bounces > LMB_MAX_BOUNCES || s->threads < 0 || s->threads > MAX_THREADS ||
         s->shadow_map < 0 || s->tree < 0 ||
-        (s->gather_step != 0 && s->gather_step != 1 && !takes_lattice(s->gather_step)) || !(s->error >= 0.0f) ||
-        !(s->visibility >= 0.0f) ||
+        (s->gather_step != 0 && s->gather_step != 1 && (!LMB_LIVE || s->gather_step != LMB_GATHER_LIVE)) ||
+        !(s->error >= 0.0f) || !(s->visibility >= 0.0f) ||
         (s->by_bands && s->threads > 1) || (s->samples > 1 && !LMB_MULTISAMPLE) ||
         (s->samples > 1 && s->samples != 4 && s->samples != 8 && s->samples != 16) || s->samples < 0) {
         return LMB_ERR_ARG;
@@ -183,7 +183,7 @@ static lmb_status place_bounced(lmb_frame *f, const lmb_frame_settings *s, frame
 static lmb_status place_lattice(lmb_frame *f, frame_block *b)
 {
     const lmb_view *v = &f->view;
-    if (!takes_lattice(f->gather_step) || f->show == LMB_SHOW_DIRECT) {
+    if (f->gather_step != LMB_GATHER_LIVE || f->show == LMB_SHOW_DIRECT) {
         return LMB_OK;
     }
     const size_t bytes = lmb_lattice_bytes(v->frame_width, v->frame_height);

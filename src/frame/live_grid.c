@@ -6,6 +6,7 @@
 
 #include <string.h>
 
+#include "../base/memory_check.h"
 #include "../raster/tile.h"
 
 #if LMB_LIVE
@@ -15,17 +16,35 @@
 #define LEAST     0.02f /* min of p (1 - p): shares of 0 and 1 are uncertain too */
 #define SPLIT     800.0f /* over strata^2: sampling errors of shadows should not cause divisions */
 
-typedef char grid_fits_lattice[sizeof(live_grid_tile) + GRID_SAMPLES * sizeof(lmb_live_sample) <=
-                                       sizeof(lmb_lattice_tile)
-                                   ? 1
-                                   : -1];
-
 /* --- layout ------------------------------------------------------------------------------------------------------- */
+
+size_t lmb_lattice_bytes(int32_t width, int32_t height)
+{
+    if (width < 1 || width > LMB_MAX_SIDE || height < 1 || height > LMB_MAX_SIDE) {
+        return 0;
+    }
+    const uint64_t columns = (uint64_t)((width + LMB_TILE - 1) / LMB_TILE),
+                   rows = (uint64_t)((height + LMB_TILE - 1) / LMB_TILE);
+    return size_or_none(columns * rows * (sizeof(live_grid_tile) + GRID_SAMPLES * sizeof(lmb_live_sample)));
+}
+
+lmb_status lmb_lattice_init(lmb_lattice *out, int32_t width, int32_t height, void *memory, size_t bytes)
+{
+    const lmb_status status = check_room(out, memory, bytes, lmb_lattice_bytes(width, height));
+    if (status != LMB_OK) {
+        return status;
+    }
+    out->tile = memory;
+    out->width = width;
+    out->height = height;
+    out->mean = 0.0f;
+    return LMB_OK;
+}
 
 live_grid lmb_live_grid_of(const lmb_lattice *l, int32_t strata)
 {
     live_grid g;
-    g.tile = (live_grid_tile *)(void *)l->tile;
+    g.tile = (live_grid_tile *)l->tile;
     g.width = l->width;
     g.height = l->height;
     g.columns = (l->width + LMB_TILE - 1) / LMB_TILE;

@@ -1,4 +1,4 @@
-/* live_phases.c: light of single points at the samples of a grid, and between them: phases of adaptive.c. Layer 8.
+/* live_phases.c: light of single points at the samples of a grid, and between them. Layer 8.
  *
  * r->light is the phase, r->progress the next piece: two rows of tiles. In a phase a piece writes only its own samples,
  * and reads from others only results of earlier phases. So any order and number of threads gives the same bytes. Pixels
@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "../base/vec.h"
+#include "../bounce/points.h"
 #include "../live/live_part.h"
 #include "../raster/tile.h"
 #include "../raster/triangle.h"
@@ -27,9 +28,11 @@ enum {
     SLOPES,
     PHASES
 };
-enum { ROWS = 2 };
+enum { ROWS = 2, PIECE_UNITS = 64 };
 
-#define REACH 3 /* px each way within which a pixel that no sample explains needs a lit pixel */
+/* px each way within which a pixel that no sample explains needs a lit pixel */
+#define MAX_REACH_PX 3
+#define FINE_REACH_PX 2 /* with more segments than draft has */
 
 static live_grid grid_of(const lmb_render *r) { return lmb_live_grid_of(&r->frame.lattice, r->frame.live->strata); }
 
@@ -125,7 +128,7 @@ static lmb_status light_row(const lmb_render *r, lmb_band_scratch *s, const live
 
 /* --- phases ------------------------------------------------------------------------------------------------------- */
 
-int32_t lmb_render_live_pieces(const lmb_render *r) { return (band_count(&r->frame.view) + ROWS - 1) / ROWS; }
+static int32_t pieces_of(const lmb_render *r) { return (band_count(&r->frame.view) + ROWS - 1) / ROWS; }
 
 static lmb_status do_row(const lmb_render *r, lmb_band_scratch *s, const live_grid *g, int32_t row)
 {
@@ -145,7 +148,7 @@ static lmb_status do_row(const lmb_render *r, lmb_band_scratch *s, const live_gr
     return LMB_OK;
 }
 
-lmb_status lmb_render_live_piece(const lmb_render *r, lmb_band_scratch *s, int32_t i)
+static lmb_status do_piece(const lmb_render *r, lmb_band_scratch *s, int32_t i)
 {
     const live_grid g = grid_of(r);
     lmb_status status = LMB_OK;
@@ -167,12 +170,41 @@ NOINLINE void set_mean(lmb_render *r)
 }
 
 /* Advances to the next phase. */
-lmb_status lmb_render_live_on(lmb_render *r)
+lmb_status lmb_render_samples_on(lmb_render *r)
 {
+    r->progress = 0;
     if (r->light == SURFACES) {
         set_mean(r);
     }
     return ++r->light < PHASES ? LMB_MORE : LMB_OK;
+}
+
+lmb_status lmb_render_samples(lmb_render *r, int32_t units)
+{
+    lmb_band_scratch *s = r->frame.scratch;
+    for (int32_t n = 0; (n == 0 || n + PIECE_UNITS <= units) && (int32_t)r->progress < pieces_of(r); n += PIECE_UNITS) {
+        memset(&s->counts, 0, sizeof s->counts);
+        const lmb_status status = do_piece(r, s, (int32_t)r->progress++);
+        if (status != LMB_OK) {
+            return status;
+        }
+        add_counts(r->frame.stats, &s->counts);
+    }
+    return (int32_t)r->progress < pieces_of(r) ? LMB_MORE : lmb_render_samples_on(r);
+}
+
+lmb_status lmb_render_samples_part(const lmb_render *r, lmb_band_scratch *s, int32_t part, int32_t parts,
+                                   lmb_stats *stats)
+{
+    int64_t first, past;
+    lmb_status status = LMB_OK;
+    memset(&s->counts, 0, sizeof s->counts);
+    share_out(&first, &past, pieces_of(r), part, parts);
+    for (int64_t i = first; i < past && status == LMB_OK; ++i) {
+        status = do_piece(r, s, (int32_t)i);
+    }
+    add_counts(stats, &s->counts);
+    return status;
 }
 
 /* --- pixels that no sample explains ------------------------------------------------------------------------------- */
@@ -182,7 +214,7 @@ typedef struct sources {
     const lmb_tile *tile;
     const lmb_irradiance *light;
     uint64_t known;
-    int count;
+    int count, reach;
     const lmb_live_sample *sample[GRID_SAMPLES + 3];
     int8_t x[GRID_SAMPLES + 3], y[GRID_SAMPLES + 3];
 } sources;
@@ -200,7 +232,10 @@ static void add_around(around *a, const float light[3], float weight)
     }
 }
 
-static int is_within(int dx, int dy) { return dx >= -REACH && dx <= REACH && dy >= -REACH && dy <= REACH; }
+static int is_within(const sources *s, int dx, int dy)
+{
+    return dx >= -s->reach && dx <= s->reach && dy >= -s->reach && dy <= s->reach;
+}
 
 /* Weight of a source at an offset of dx, dy px. */
 static float nearness(int dx, int dy)
@@ -209,7 +244,7 @@ static float nearness(int dx, int dy)
     return 1.0f / (d2 * d2);
 }
 
-/* Averages the sources within REACH. */
+/* Averages the sources within reach. */
 static around around_of(const sources *s, int k)
 {
     const lmb_live_sample own = lmb_live_grid_surface(s->tile, k);
@@ -218,7 +253,7 @@ static around around_of(const sources *s, int k)
     memset(&a, 0, sizeof a);
     for (int i = 0; i < s->count; ++i) {
         const int dx = s->x[i] - x, dy = s->y[i] - y;
-        const float weight = is_within(dx, dy) ? live_agree(&own, s->sample[i]) * nearness(dx, dy) : 0.0f;
+        const float weight = is_within(s, dx, dy) ? live_agree(&own, s->sample[i]) * nearness(dx, dy) : 0.0f;
         if (weight > 0.0f) {
             add_around(&a, s->sample[i]->light, weight);
         }
@@ -226,7 +261,7 @@ static around around_of(const sources *s, int k)
     for (uint64_t bits = s->known; bits != 0; bits &= bits - 1) {
         const int from = lowest_bit_64(bits), dx = from % LMB_TILE - x, dy = from / LMB_TILE - y;
         const lmb_live_sample other = lmb_live_grid_surface(s->tile, from);
-        const float weight = is_within(dx, dy) ? live_agree(&own, &other) * nearness(dx, dy) : 0.0f;
+        const float weight = is_within(s, dx, dy) ? live_agree(&own, &other) * nearness(dx, dy) : 0.0f;
         if (weight > 0.0f) {
             const float light[3] = {s->light->rgb[0][from], s->light->rgb[1][from], s->light->rgb[2][from]};
             add_around(&a, light, weight);
@@ -256,13 +291,14 @@ static void set_sources(sources *out, const live_grid *g, const lmb_tile *tile, 
     }
 }
 
-/* Lights some of the remaining pixels individually, so that each pixel has a source within REACH. */
+/* Lights some of the remaining pixels individually, so that each pixel has a source within reach. */
 static lmb_status light_left(lmb_irradiance *inout, const lmb_render *r, lmb_band_scratch *s, const live_grid *g,
                              uint64_t left)
 {
     lmb_status status = LMB_OK;
     sources from;
     set_sources(&from, g, &s->tile, inout);
+    from.reach = r->frame.live->strata > LMB_LIVE_STRATA / 2 ? FINE_REACH_PX : MAX_REACH_PX;
     for (uint64_t bits = left; bits != 0 && status == LMB_OK; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
         if (!(around_of(&from, k).sum > 0.0f)) {

@@ -267,7 +267,7 @@ lmb_status lmb_plan_frame(lmb_plan *out, const lmb_render *begun, const lmb_fact
     plan_bounces(&p, none);
     plan_view(&p);
     out->row[LMB_PLAN_RESOLVE].op[LMB_OP_RESOLVED] =
-        p.pixels * (requires_samples(begun) && none == LMB_WHY_RUNS ? 2.0 : 1.0);
+        p.pixels * (requires_samples(begun) ? 2.0 : 1.0);
     plan_direct(&p);
     plan_gather(&p, none);
     plan_lookups(&p);

@@ -55,18 +55,6 @@ static inline int lacks_live(const lmb_frame *f, const lmb_band_scratch *s)
     return requires_live(f) && s->live == NULL;
 }
 
-/* Does a gather_step use a lattice? */
-static inline int takes_lattice(int32_t gather_step)
-{
-    return (LMB_TREES && gather_step == LMB_GATHER_ADAPTIVE) || (LMB_LIVE && gather_step == LMB_GATHER_LIVE);
-}
-
-/* Is bounced light gathered at the samples of a lattice? */
-static inline int requires_samples(const lmb_render *r)
-{
-    return takes_lattice(r->frame.gather_step) && !(LMB_PLAN && (r->skips & LMB_SKIP_BOUNCE) != 0);
-}
-
 /* Flags for skipped and reused work; always 0 if you build without plan. */
 static inline int skips(const lmb_render *r, uint32_t what) { return LMB_PLAN && (r->skips & what) != 0; }
 static inline int reuses(const lmb_render *r, uint32_t what) { return LMB_PLAN && (r->reuses & what) != 0; }
@@ -129,10 +117,10 @@ static inline int requires_elements(const lmb_render *r)
            (f->bounces > 1 || r->emits || requires_many_lights_bounce(f));
 }
 
-/* Does all bounced light come from single points? Their tree contains the elements. */
-static inline int lights_points(const lmb_render *r)
+/* Is bounced light interpolated between single points? */
+static inline int requires_samples(const lmb_render *r)
 {
-    return requires_samples(r) && requires_live(&r->frame) &&
+    return !skips(r, LMB_SKIP_BOUNCE) && requires_live(&r->frame) &&
            (!gathers_many_lights(&r->frame) || gathers_live_sky(&r->frame));
 }
 

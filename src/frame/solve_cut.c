@@ -15,10 +15,6 @@
 enum { FINEST_TREE = 4096 };
 static const int32_t tree_sizes[] = {256, 128, 1024, 256}; /* of the qualities; errors: tests/results/README.md */
 
-/* The samples of a pack are spread out, so a cut that fits the nearest sample is too fine for the others. The errors of
- * samples are smaller than those of the interpolation between them. */
-#define SPREAD_VISIBILITY 1.5f /* times the limit for adjacent pixels */
-
 /* --- memory ------------------------------------------------------------------------------------------------------- */
 
 /* Places a tree as fine as the settings request. A texel of the tree covers 1 x 1 to 8 x 8 texels of the maps. */
@@ -101,10 +97,6 @@ lmb_status lmb_solve_cut_tile(lmb_irradiance *inout, lmb_glossy *glossy, const l
     cut_params.view = &f->view;
     cut_params.direct = direct;
     cut_params.beside = gathers_many_lights(f) ? inout : NULL;
-    if (takes_lattice(f->gather_step) && tile == &s->together) {
-        cut_params.visibility *= SPREAD_VISIBILITY;
-        cut_params.spread = 1;
-    }
     lmb_status status = lmb_gather_cut(inout, f->kernels, &s->gather.cut, tile, &f->tree, &cut_params);
     if (status == LMB_OK && requires_elements(r)) {
         cut_params.beside = inout;

@@ -18,8 +18,6 @@
 #define lmb_many_lights_direct_tile(...) never(LMB_LAYOUT(lmb_many_lights_direct_tile)(__VA_ARGS__))
 #define lmb_bvh_build(...)               never(LMB_LAYOUT(lmb_bvh_build)(__VA_ARGS__))
 #define lmb_compose_glossy(...)          never(lmb_compose_glossy(__VA_ARGS__))
-#define lmb_lattice_bytes(...)           ((void)sizeof(lmb_lattice_bytes(__VA_ARGS__)), (size_t)0)
-#define lmb_lattice_init(...)            never(lmb_lattice_init(__VA_ARGS__))
 #endif
 
 #define UNIT_TRIANGLES 1024u /* of a draw, in one unit of a step */
@@ -71,19 +69,12 @@ lmb_status lmb_render_samples_part(const lmb_render *r, lmb_band_scratch *scratc
                                    lmb_stats *stats);
 lmb_status lmb_render_samples_on(lmb_render *r);
 
-/* For frames with bounced light of single points only: the number of pieces in the current phase; one piece; the next
- * phase. lmb_render_live_tile: light of the tile's pixels with a surface; call it after all phases. */
-int32_t lmb_render_live_pieces(const lmb_render *r);
-lmb_status lmb_render_live_piece(const lmb_render *r, lmb_band_scratch *scratch, int32_t i);
-lmb_status lmb_render_live_on(lmb_render *r);
+/* lmb_render_live_tile: after all phases, sets the light of the tile's pixels with a surface. */
 lmb_status lmb_render_live_tile(lmb_irradiance *out, const lmb_render *r, lmb_band_scratch *scratch);
 #if !LMB_LIVE
-#define lmb_render_live_pieces(...) ((void)sizeof(lmb_render_live_pieces(__VA_ARGS__)), 0)
-#define lmb_render_live_piece(...)  never(lmb_render_live_piece(__VA_ARGS__))
-#define lmb_render_live_on(...)     never(lmb_render_live_on(__VA_ARGS__))
-#define lmb_render_live_tile(...)   never(lmb_render_live_tile(__VA_ARGS__))
-#endif
-#if !LMB_TREES
+#define lmb_lattice_bytes(...)        ((void)sizeof(lmb_lattice_bytes(__VA_ARGS__)), (size_t)0)
+#define lmb_lattice_init(...)         never(lmb_lattice_init(__VA_ARGS__))
+#define lmb_render_live_tile(...)     never(lmb_render_live_tile(__VA_ARGS__))
 #define lmb_render_samples(...)       never(lmb_render_samples(__VA_ARGS__))
 #define lmb_render_samples_part(...)  never(lmb_render_samples_part(__VA_ARGS__))
 #define lmb_render_samples_on(...)    never(lmb_render_samples_on(__VA_ARGS__))

@@ -55,17 +55,16 @@ static int reflects_again(const lmb_frame *f)
 
 static int has_lattice(const lmb_frame *f)
 {
-    return takes_lattice(f->gather_step) && f->lattice.tile != NULL && f->lattice.width == f->view.frame_width &&
+    return f->lattice.tile != NULL && f->lattice.width == f->view.frame_width &&
            f->lattice.height == f->view.frame_height;
 }
 
 /* Does the frame have the memory for light of single points? */
 static int has_live(const lmb_frame *f)
 {
-    return f->gather_step != LMB_GATHER_LIVE ||
-           (requires_live(f) && f->live->face != NULL && f->live->strata >= 1 && f->live->strata <= LMB_LIVE_STRATA &&
-            f->live->element_cap >= f->elements.cap &&
-            (f->live_sky == NULL || f->live_sky->chunk != NULL) && f->scratch->live != NULL);
+    return requires_live(f) && f->live->face != NULL && f->live->strata >= 1 && f->live->strata <= LMB_LIVE_STRATA &&
+           f->live->element_cap >= f->elements.cap && (f->live_sky == NULL || f->live_sky->chunk != NULL) &&
+           f->scratch->live != NULL;
 }
 
 lmb_status lmb_render_check(const lmb_frame *f)

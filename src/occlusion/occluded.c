@@ -436,17 +436,4 @@ uint64_t lmb_occluded_again(const lmb_kernels *kernels, lmb_traversal *kept, uin
     return traversal_end(kept, before, pixels, asked, trace(&w));
 }
 
-/* For one pixel, the points from which a triangle blocks it are a convex set. */
-int lmb_occluded_from(const lmb_bvh *bvh, const lmb_kernels *kernels, const lmb_tile *tile, uint64_t pixels,
-                      const lmb_vec3 *at, int count, float noise, uint32_t triangle)
-{
-    const lmb_bvh_triangle *t = bvh != NULL && triangle != 0 ? &bvh->triangle[triangle - 1] : NULL;
-    int blocked = t != NULL && !(t->id & LMB_BVH_MASKED);
-    for (int i = 0; i < count && blocked; ++i) {
-        lmb_cross_job job;
-        blocked = cross_job(&job, t, at[i], noise, bvh->noise, NULL) && kernels->crossed(tile, pixels, &job) == pixels;
-    }
-    return blocked;
-}
-
 #endif

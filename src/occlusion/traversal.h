@@ -24,11 +24,6 @@
 /* Relative to the size of a convex room, in which nothing can block: hull.c. */
 #define LMB_NOISE_HULL 3.8146973e-6f /* 2^-18 */
 
-/* Returns 1 if one triangle (number + 1, as in lmb_traversal; 0: none) blocks all pixels from each of `count` points,
- * and so from all points between these. Returns 0 if the triangle may have holes. Otherwise as lmb_occluded_tile. */
-int lmb_occluded_from(const lmb_bvh *bvh, const lmb_kernels *kernels, const lmb_tile *tile, uint64_t pixels,
-                      const lmb_vec3 *at, int count, float noise, uint32_t triangle);
-
 /* A single pixel meets this many boxes only if most of them overlap, as for long slivers or for a mesh far from the
  * origin. The pixels after it are then traced together, so that each triangle is tested once for all of them. */
 #define LMB_MANY_BOXES 256u

@@ -23,7 +23,6 @@
 #define MIN_FLAT_AGREEMENT 0.98f /* nodes with a lower agreement of normals are tested for children that face away */
 #define MAX_ERROR_EXCESS   100.0 /* times the allowed error: if exceeded, nodes contain pixels, and splitting the pixel
                                     cluster helps */
-#define BOX_MARGIN         1.001f /* enlarges a box against rounding */
 #define STAND_OFF          4.0f  /* times the noise: offset of a texel's point towards the light */
 #define LARGE_NOISE        1.5258789e-5f /* 2^-16 of the distance to the eye: the origin is then 64 times as far away */
 #define SPENT_TILE_FACTOR     8.0  /* factor on the allowed light and error in a tile that has used up the tests */
@@ -268,20 +267,6 @@ NOINLINE uint64_t turned_from(const cutter *c, uint64_t pixels, const lmb_texel 
     return out;
 }
 
-/* Returns those of `pixels` with all of a node behind them. */
-static uint64_t before_all_of(const cutter *c, uint64_t pixels, lmb_node_ref at)
-{
-    lmb_node texel;
-    const lmb_node *n = pixels != 0 ? node_at(&texel, c->tree, at) : NULL;
-    uint64_t out = 0;
-    for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
-        const int k = lowest_bit_64(bits);
-        const float high = dot3(tile_vec(c->tile->face, k), sub3(n->middle, tile_vec(c->tile->position, k)));
-        out |= (uint64_t)(high + n->radius < 0.0f) << k;
-    }
-    return out;
-}
-
 /* 1 if a first point and the centre of the pixel cluster are in front of each other. */
 static int is_before(const lmb_pixel_cluster *p, lmb_vec3 at, lmb_vec3 normal)
 {
@@ -371,8 +356,7 @@ static int shows_facets(const cutter *c, lmb_node_ref at)
 }
 
 /* Elements lie on both sides of walls, so pixels behind an element are excluded; a light's texels are all on the lit
- * side. If the pixels are spread out, pixels with the whole node behind them are excluded too: finding their own
- * surface as the occluder would take many boxes. blocker: tested first, if not 0. */
+ * side. blocker: tested first, if not 0. */
 static void test_visibility(cutter *c, int32_t i, uint32_t blocker)
 {
     const lmb_node_ref at = c->cut->ref[i];
@@ -382,9 +366,8 @@ static void test_visibility(cutter *c, int32_t i, uint32_t blocker)
         return; /* add_facets tests each facet */
     }
     count_in_entry(c, i, -1.0);
-    if ((c->tree->element != NULL || c->cut_params->spread) && !all_before(c, seen, noise)) {
-        const uint64_t turned = turned_from(c, c->cut->visible[i], seen, noise);
-        c->cut->visible[i] &= ~(c->tree->element != NULL ? turned : before_all_of(c, turned, at));
+    if (c->tree->element != NULL && !all_before(c, seen, noise)) {
+        c->cut->visible[i] &= ~turned_from(c, c->cut->visible[i], seen, noise);
     }
     if (c->cut_params->stats != NULL) {
         c->cut_params->stats->segments += (uint64_t)count_bits_64(c->cut->visible[i]);
@@ -471,26 +454,6 @@ static double allowed_upper(const cutter *c, double lower)
     return maxd(share * (c->beside + maxd(c->value, lower)), c->floor);
 }
 
-/* 1 if one triangle lies between all pixels and the whole node in slot i, tested at the corners of the node's box. Then
- * no part of the node is visible, and it need not be split to find that out. */
-static int is_dark(const cutter *c, int32_t i)
-{
-    const lmb_node_ref at = c->cut->ref[i];
-    lmb_vec3 corner[8];
-    if (blocker_of(c->cut, i) == 0 || at.level == 0) {
-        return 0;
-    }
-    const lmb_node *n = tree_node(c->tree, at);
-    const lmb_vec3 out = mul3(n->normal, n->half[0] * BOX_MARGIN), across = mul3(n->across, n->half[1] * BOX_MARGIN),
-                   up = mul3(cross3(n->normal, n->across), n->half[2] * BOX_MARGIN);
-    for (int k = 0; k < 8; ++k) {
-        const lmb_vec3 side = k & 1 ? across : mul3(across, -1.0f), high = k & 2 ? up : mul3(up, -1.0f);
-        corner[k] = add3(add3(n->middle, add3(side, high)), k & 4 ? out : mul3(out, -1.0f));
-    }
-    return lmb_occluded_from(c->cut_params->bvh, c->kernels, c->tile, c->p->pixels, corner, 8,
-                             2.0f * (c->noise + texel_noise(c, at.face, n->middle)), blocker_of(c->cut, i));
-}
-
 /* Splits the node with the largest upper bound until no node exceeds the allowed bound. Returns 0, or, if the cut is
  * full, the factor by which the largest exceeds it. */
 static double divide_by_upper(cutter *c, double lower, int asks)
@@ -502,9 +465,7 @@ static double divide_by_upper(cutter *c, double lower, int asks)
             return 0.0;
         }
         c->cut->bucket[c->highest] = c->cut->next[i];
-        if (!asks || !c->cut_params->spread || !is_dark(c, i)) {
-            divide_entry(c, i, c->p->pixels, asks);
-        }
+        divide_entry(c, i, c->p->pixels, asks);
         i = largest(c);
     }
     return i != NO_SLOT && !has_room(c) ? (double)c->cut->upper[i] / maxd(allowed_upper(c, lower), 1e-30) : 0.0;

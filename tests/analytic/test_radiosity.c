@@ -21,7 +21,7 @@ static double bound(double of_cuts, double of_points) { return is_live ? of_poin
 
 #if LMB_LIVE
 static uint64_t live_memory[FACES * MAP * MAP / 16 * 46 + ELEMENTS * 31 + 2048];
-static uint64_t lattice_memory[FRAME * FRAME / 64 * (sizeof(lmb_lattice_tile) / 8) + 1024];
+static uint64_t lattice_memory[FRAME * FRAME / 64 * 192];
 static lmb_live live;
 static lmb_live_scratch live_scratch;
 

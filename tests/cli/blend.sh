@@ -119,7 +119,7 @@ for how in "--show direct" "--show full" "--show indirect --bounces 2"; do
     done
     check "a pane of 0.6 shows 0.6 of its light: $how" share 0.59999 0.60001
 done
-for how in "--gather adaptive" "--gather live" "--group method=zones" "--many-lights 64"; do # interpolated, or by tile
+for how in "--gather live" "--group method=zones" "--many-lights 64"; do # interpolated, or by tile
     for scene in glass solid; do
         status 0 render $scene.obj $room $how --blend sorted -o $scene.pfm
     done

@@ -82,7 +82,7 @@ check "live light refuses a bound that it does not keep" grep -q -e '--gather li
 check "and writes nothing" test ! -e bound.pfm
 status 0 render demo $small --gather live -v -o named.pfm
 check "-v names the way of gathering" grep -q -e '--gather live' err.txt
-for gone in half quarter; do
+for gone in half quarter adaptive; do
     status 2 render demo $small --gather $gone -o named.pfm
     check "--gather $gone names the replacement" grep -q -- "--gather: \`$gone\` was removed; use live" err.txt
     check "in one line" test "$(wc -l <err.txt)" -eq 1

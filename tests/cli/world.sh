@@ -21,7 +21,7 @@ status 0 render box.obj $look --ground none -o floats.pfm
 check "no ground where none is wanted" holds "a clear sky; " err.txt
 status 0 render box.obj $look --threads 1 --backend scalar -o again.pfm
 check "the same bytes by one thread and plain C" cmp sky.pfm again.pfm
-# 256 x 256 pixels of a draft are lit at single points, with equal bytes on any backend; default quality is not.
+# 256 x 256 pixels are lit at single points, except by the best quality, with equal bytes on any backend.
 large="--size 256x256 --eye 1.5,2,3 --target 0,0.5,0 --shadow-map 256"
 status 0 render box.obj $large --quality draft -o draft.pfm
 status 0 render box.obj $large --quality draft --gather live --threads 1 --backend scalar -o live.pfm
@@ -30,6 +30,12 @@ status 0 render box.obj $large --quality draft --gather full -o full.pfm
 status 0 compare live.pfm full.pfm --max trim=0.04,rmse=0.06,lo=0.98,hi=1.02
 status 0 render box.obj $large --quality draft --error 0.02 -o error.pfm
 check "cuts, if an error limit is given" differ draft.pfm error.pfm
+status 0 render box.obj $large -o default.pfm
+status 0 render box.obj $large --gather live -o live.pfm
+check "the default quality is live light, too" cmp default.pfm live.pfm
+status 0 render box.obj $large --quality best -o best.pfm
+status 0 render box.obj $large --quality best --gather full -o full.pfm
+check "the best quality gathers each pixel" cmp best.pfm full.pfm
 status 0 render demo $few -o demo.pfm
 check "a scene with lights has no sky" lacks sky err.txt
 

@@ -102,7 +102,7 @@ static void fill_settings(void *out, int how)
     s->points = how & 4 ? 0 : 64; /* 0: the maximum */
     s->quality = how & 4 ? LMB_QUALITY_FIXED : LMB_QUALITY_DRAFT;
     s->bounces = how & 8 && !(how & 4) ? 2 : 1;
-    s->gather_step = how & 16 ? LMB_GATHER_ADAPTIVE : 1;
+    s->gather_step = how & 16 && !(how & 4) ? LMB_GATHER_LIVE : 1;
     s->samples = how & 32 ? 4 : 1;
 }
 

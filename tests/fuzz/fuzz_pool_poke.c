@@ -27,7 +27,7 @@ static const struct {
     WHOLE(lmb_grouping, flags), WHOLE(lmb_grouping, thin), WHOLE(lmb_grouping, neighbour_cells),
     REAL(lmb_grouping, radius), WHOLE(lmb_grouping, zones), REAL(lmb_cut_params, error),
     REAL(lmb_cut_params, visibility), REAL(lmb_cut_params, floor), WHOLE(lmb_cut_params, conservative),
-    REAL(lmb_cut_params, lower), WHOLE(lmb_cut_params, spread), WHOLE(lmb_occluder, kind), WHOLE(lmb_occluder, steps),
+    REAL(lmb_cut_params, lower), WHOLE(lmb_occluder, kind), WHOLE(lmb_occluder, steps),
     REAL(lmb_many_lights_query, error), WHOLE(lmb_many_lights_query, each), WHOLE(lmb_many_lights_query, by_seen),
     REAL(lmb_pinhole, fx), REAL(lmb_pinhole, fy), REAL(lmb_pinhole, cx), REAL(lmb_pinhole, cy),
     WHOLE(lmb_pinhole, width), WHOLE(lmb_pinhole, height), REAL(lmb_axes, right.x), REAL(lmb_axes, up.y),

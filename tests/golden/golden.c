@@ -681,24 +681,10 @@ static uint64_t case_facets(int variant)
 #endif
 
 #ifndef LMB_CONFIG_TINY
-static uint64_t lattice[10 * 8 * (sizeof(lmb_lattice_tile) / 8) + 1024] GOLDEN_ALIGNED;
-
-/* Bounced light at the samples of a lattice, for which the small configuration has no memory. Variant 0: the room, by
- * groups; 1: the soup, by cuts, with few pixels that can be interpolated. */
-static uint64_t case_adaptive(int variant)
-{
-    lmb_frame f = variant ? soup_frame(1, 8) : demo_frame();
-    f.show = LMB_SHOW_INDIRECT;
-    f.gather_step = LMB_GATHER_ADAPTIVE;
-    f.occlusion = variant ? LMB_OCCLUSION_EXACT : f.occlusion;
-    const lmb_status status = lmb_lattice_init(&f.lattice, WIDTH, HEIGHT, lattice, sizeof lattice);
-    return hash_frame(golden_hash_u32(GOLDEN_START, (uint32_t)status), &f);
-}
-
 /* The soup with light at single points, each near some of the map's texels. Variant: occlusion. */
 static uint64_t case_live(int variant)
 {
-    static uint64_t live_memory[1 << 13] GOLDEN_ALIGNED;
+    static uint64_t live_memory[1 << 13] GOLDEN_ALIGNED, lattice[10 * 8 * 192] GOLDEN_ALIGNED;
     static lmb_live_scratch live_scratch;
     static lmb_live live;
     lmb_frame f = soup_frame(1, TREE);
@@ -716,7 +702,7 @@ static uint64_t case_live_sky(int variant)
 {
     enum { SUNS = 96 };
     static uint64_t live_memory[1 << 13] GOLDEN_ALIGNED, sky_memory[5 << 10] GOLDEN_ALIGNED,
-        stream_memory[SUNS * 100] GOLDEN_ALIGNED;
+        stream_memory[SUNS * 100] GOLDEN_ALIGNED, lattice[10 * 8 * 192] GOLDEN_ALIGNED;
     static lmb_live_scratch live_scratch;
     static lmb_live live;
     static lmb_live_sky sky;

@@ -1,4 +1,4 @@
-# front.sh: plots speed against error: light gathered at every pixel and at fewer, baked light, and path tracing.
+# front.sh: plots speed against error: light gathered at every pixel, live and baked light, and path tracing.
 #
 # SCENES: scenes (default cornell corridor bunny_room sponza). SETTINGS: rows (default: all below). LMT: the folder with
 # NAME.lmt, and NAME-*.lmt for other values of --error, if any (default $B/measure). RUNS: number of runs (default 1);
@@ -40,7 +40,7 @@ for scene in ${SCENES-cornell corridor bunny_room sponza}; do
     python3 -c 'import json, sys
 c = json.load(open(sys.argv[1]))["camera"]
 print("0 camera", *(",".join(map(str, c[k])) for k in ("eye", "target")))' "$truth/$scene/scene.json" >"$work/still"
-    for setting in ${SETTINGS-draft-live draft-adaptive draft default-live default-adaptive default best}; do
+    for setting in ${SETTINGS-draft-live draft default-live default best}; do
         measure "$scene" "$setting"
     done
     for file in "$folder/$scene".lmt "$folder/$scene"-*.lmt; do
@@ -69,11 +69,11 @@ def place(panel, ms, trim):
     u = math.log(ms / MS[0]) / math.log(MS[1] / MS[0])
     v = math.log(trim / TRIM[0]) / math.log(TRIM[1] / TRIM[0])
     return (panel % 2 * W + LEFT + u * (W - LEFT - 20), panel // 2 * H + H - 34 - v * (H - 34 - TOP))
-colours = {'gather': '#0b6e99', 'few': '#0f9d58', 'baked': '#c2410c', 'PT': '#999', 'PT, MIS': '#666', 'denoised': '#7c3aed'}
-legend = {'gather': 'every pixel', 'few': 'fewer pixels', 'baked': 'baked', 'PT': 'path tracing',
+colours = {'gather': '#0b6e99', 'live': '#0f9d58', 'baked': '#c2410c', 'PT': '#999', 'PT, MIS': '#666', 'denoised': '#7c3aed'}
+legend = {'gather': 'every pixel', 'live': 'live light', 'baked': 'baked', 'PT': 'path tracing',
           'PT, MIS': 'with MIS', 'denoised': 'with MIS, denoised'}
 def kind(s):
-    return 'baked' if s.endswith('.lmt') else 'few' if '-' in s else 'gather'
+    return 'baked' if s.endswith('.lmt') else 'live' if '-' in s else 'gather'
 out = ['<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 %d %d" width="%d" height="%d" role="img"><style>text{font:11px '
        'ui-monospace,Menlo,Consolas,monospace;fill:#333;paint-order:stroke;stroke:#fff;stroke-width:3px}.grid{stroke:#ddd}'
        '</style><rect width="%d" height="%d" fill="#fff"/>' % ((2 * W, 2 * H + 24) * 3)]

@@ -2,7 +2,7 @@
 # bake time, one row a scene.
 #
 # SCENES: scenes, and `demo` (default: all with bars below). LMT: the folder with NAME.lmt, baked if missing (default
-# $B/measure). FRAME: size (default 160x120). OPTIONS: instead of baked light, say "--gather adaptive". LMB_SHARED: the
+# $B/measure). FRAME: size (default 160x120). OPTIONS: instead of baked light, say "--gather live". LMB_SHARED: the
 # folder with truth/ (default ../shared). Each light's own line goes to $B/measure/lights.NAME. A row passes if the mean
 # trim over all lights meets the bar, and the worst trim twice the bar.
 . tests/measure/draw.sh

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "../../src/base/vec.h"
+#include "../../src/frame/live_grid.h"
 #include "../../src/lane/kernels.h"
 #include "../test.h"
 
@@ -42,7 +43,7 @@ static void test_pictures(void)
     check_sum("env", lmb_env_bytes(2048), squares(2048, 48));
     check_sum("env", lmb_env_bytes(4096), 0);
     check_sum("lattice", lmb_lattice_bytes(LMB_MAX_SIDE, LMB_MAX_SIDE),
-              sizeof(lmb_lattice_tile) * texels / 64 + texels / 64 + texels / 16 + texels / 4);
+              texels / 64 * (sizeof(live_grid_tile) + GRID_SAMPLES * sizeof(lmb_live_sample)));
 }
 
 static void test_mixed(void)

@@ -105,8 +105,7 @@ static int make_kinds(kind *out)
     s = KIND("cuts by bands", &lit), s->by_bands = 1, s->format = LMB_RGB32F;
     s = KIND("fixed", &lit), s->quality = LMB_QUALITY_FIXED;
     s = KIND("fixed by bands", &lit), s->quality = LMB_QUALITY_FIXED, s->by_bands = 1, s->points = 700;
-    s = KIND("adaptive", &lit), s->gather_step = LMB_GATHER_ADAPTIVE, s->quality = LMB_QUALITY_DRAFT;
-    s = KIND("adaptive by bands", &lit), s->gather_step = LMB_GATHER_ADAPTIVE, s->by_bands = 1, s->format = LMB_RGB32F;
+    s = KIND("live by bands", &lit), s->gather_step = LMB_GATHER_LIVE, s->by_bands = 1, s->format = LMB_RGB32F;
     s = KIND("live", &lit), s->gather_step = LMB_GATHER_LIVE, s->quality = LMB_QUALITY_DRAFT, s->threads = 2;
     s = KIND("own picture", &lit), s->shadow_map = 32;
     CHECK(lmb_surface_init(&s->out, LMB_RGBA8, WIDE, HIGH, own_picture, sizeof own_picture) == LMB_OK);

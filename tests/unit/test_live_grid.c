@@ -18,7 +18,7 @@ static float even(float x, float y) { return 0.3f + 0.0f * (x + y); }
 static float curved(float x, float y) { return 2.0f + 0.01f * x - 0.02f * y + 1e-4f * (x * x - x * y); }
 static float stepped(float x, float y) { return x + 0.3f * y > 61.0f ? 1.0f : 3.0f; }
 
-static uint64_t memory[TILES * (sizeof(lmb_lattice_tile) / 8) + 1024];
+static uint64_t memory[TILES * 192];
 static lmb_tile tile[TILES];
 static lmb_irradiance light[TILES];
 static live_grid grid;

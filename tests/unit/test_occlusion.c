@@ -279,38 +279,6 @@ static void few_nodes(void)
     CHECK(traversal.last[0] != 0);
 }
 
-/* If one triangle hides all pixels from a box's corners, it hides them from every point in the box. */
-static void from_corners(void)
-{
-    test_rng r = {37};
-    int hidden = 0, wrong = 0;
-    for (int round = 0; round < 200; ++round) {
-        const lmb_vec3 from = random_point(&r, 1.5f);
-        lmb_tile tile;
-        lmb_vec3 corner[8];
-        world_begin(1, 1, 1);
-        world_triangle(vec3(-1.6f, 0, -1), vec3(1.6f, 0, -1), vec3(0, 0, 1.6f));
-        lmb_bvh b = bvh_of_world();
-        fill_tile(&tile, vec3(0, 0.5f, 0), 0.4f, &r);
-        for (int k = 0; k < 8; ++k) {
-            corner[k] = vec3(from.x + (k & 1 ? 0.5f : -0.5f), -(k & 2 ? 0.9f : 0.3f),
-                             from.z + (k & 4 ? 0.5f : -0.5f));
-        }
-        const float noise = 2.0f * noise_of(&tile, ~UINT64_C(0), corner[0]);
-        const int all = lmb_occluded_from(&b, picked_kernels(), &tile, ~UINT64_C(0), corner, 8, noise, 1);
-        for (int k = 0; k < 20; ++k) {
-            const lmb_vec3 in = random_point(&r, 1.0f);
-            const lmb_vec3 at = vec3(from.x + 0.49f * in.x, -0.6f + 0.29f * in.y, from.z + 0.49f * in.z);
-            wrong += all && occluded_anew(&b, &tile, ~UINT64_C(0), at) != ~UINT64_C(0);
-        }
-        hidden += all;
-        b.triangle[0].id |= LMB_BVH_MASKED;
-        wrong += lmb_occluded_from(&b, picked_kernels(), &tile, ~UINT64_C(0), corner, 8, noise, 1);
-        wrong += lmb_occluded_from(&b, picked_kernels(), &tile, ~UINT64_C(0), corner, 8, noise, 0);
-    }
-    CHECK_MSG(wrong == 0 && hidden > 20 && hidden < 180, "%d wrong, %d of 200 hidden", wrong, hidden);
-}
-
 /* A masked triangle blocks only where it is opaque. */
 static void holes(void)
 {
@@ -877,7 +845,6 @@ void test_occlusion(void)
     no_gap_no_acne();
     capacities();
     few_nodes();
-    from_corners();
     holes();
     all_hole();
     walls_before_needles();

@@ -31,7 +31,7 @@ typedef struct state {
     uint32_t cells[MAP * MAP / 64 + 1];
     lmb_groups groups;
     lmb_band_scratch scratch;
-    uint64_t lattice[FRAME * FRAME / 64 * (sizeof(lmb_lattice_tile) / 8) + FRAME * FRAME], live_tree[1 << 15];
+    uint64_t lattice[FRAME * FRAME / 64 * 192], live_tree[1 << 15];
     lmb_live live;
     lmb_live_scratch live_scratch;
     lmb_render render;

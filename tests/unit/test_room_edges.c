@@ -145,8 +145,8 @@ static int edge_count(const room *r, const double other[2][3], const double lamp
 
 void test_room_edges(void)
 {
-    static const char *const how[][2] = {{"--quality", "default"}, {"--quality", "draft"}, {"--gather", "adaptive"},
-                                         {"--gather", "live"},     {"--occlusion", "none"}};
+    static const char *const how[][2] = {{"--quality", "default"}, {"--quality", "draft"}, {"--gather", "live"},
+                                         {"--occlusion", "none"}};
     static const struct place {
         uint64_t seed;
         double scale, far;

@@ -46,7 +46,7 @@ const render = (file, ...more) => ['render', file, '-o', 'x.ppm', '--size', '160
                                    ...more];
 const frames = [
     { show: 0, light: null, words: render('demo', '--quality', 'draft') },
-    { show: 0, light: null, words: render('demo', '--quality', 'draft', '--gather', 'adaptive') },
+    { show: 0, light: null, words: render('demo', '--quality', 'draft', '--gather', 'live') },
     { show: 2, light: [0.5, 2.6, 0.5], words: render('demo', '--quality', 'draft') },
     { show: 0, light: [0.5, 2.6, 0.5], words: render('demo', '--transfer', 'demo.lmt') },
     { show: 0, light: null, words: render('small_room/scene.gltf', '--transfer', 'small_room.lmt') },
@@ -145,7 +145,7 @@ await page.waitForFunction(() => +document.body.dataset.cut > 0);
 await shot(page, 'show_cut');
 check('a cut has some nodes', await page.evaluate(() => +document.body.dataset.cut) > 8);
 await nextFrame(page, () => page.selectOption('#show', 'full'));
-for (const [value, name] of [[1, 'adaptive'], [2, 'draft']]) {
+for (const [value, name] of [[1, 'draft'], [2, 'default']]) {
     await nextFrame(page, () => page.locator('#quality').fill(String(value)));
     check(`quality ${name}`, await page.textContent('#level') === name);
 }

@@ -1,6 +1,6 @@
 // page_times.mjs: frames a second of the page in Chromium: page_times.mjs PAGE MODULES SCENE=FOLDER[:LMT] ...
 //
-// 640x480 baked, and 320x240 adaptive, by two threads: the least and the median of 30 frames whose light circles.
+// 640x480 baked, and 320x240 live, by two threads: the least and the median of 30 frames whose light circles.
 import fs from 'fs';
 import os from 'os';
 import path from 'path';
@@ -50,7 +50,7 @@ for (const s of scenes) {
         await times(`${name} baked`, render(file, '640x480', '--transfer', `${name}.lmt`), '640x480');
     }
     await times(`${name} direct`, render(file, '640x480', '--show', 'direct'), '640x480');
-    await times(`${name} adaptive`, render(file, '320x240', '--quality', 'draft', '--gather', 'adaptive'), '320x240');
+    await times(`${name} live`, render(file, '320x240', '--quality', 'draft', '--gather', 'live'), '320x240');
 }
 await chromium.close();
 server.close();

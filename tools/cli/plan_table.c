@@ -82,7 +82,7 @@ static void print_lights(const lmb_plan *p, const render_job *j)
 
 static const char *gather_word(int32_t step)
 {
-    return step == LMB_GATHER_LIVE ? "live" : step == LMB_GATHER_ADAPTIVE ? "adaptive" : "full";
+    return step == LMB_GATHER_LIVE ? "live" : "full";
 }
 
 void plan_print_table(const lmb_plan *p, const render_job *j, const budget_choice *c)

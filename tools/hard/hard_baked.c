@@ -1,4 +1,4 @@
-/* hard_baked.c: hard cases of baked light and of few samples: light leaks, compared with cuts of the same scenes. */
+/* hard_baked.c: hard cases of baked light and of live light: light leaks, compared with cuts of the same scenes. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -123,10 +123,10 @@ static double mean_seen(hard_stage *s, dvec from, dvec target, float error)
     return sum / FLOATS;
 }
 
-/* The same with few pixels, at draft settings. */
-static double mean_of_few(hard_stage *s, dvec from, dvec target)
+/* The same with live light, at draft settings. */
+static double mean_of_live(hard_stage *s, dvec from, dvec target)
 {
-    s->gather_step = LMB_GATHER_ADAPTIVE;
+    s->gather_step = LMB_GATHER_LIVE;
     const double mean = mean_seen(s, from, target, DRAFT);
     s->gather_step = 0;
     return mean;
@@ -139,7 +139,7 @@ static lmb_vec3 eye_at(dvec v)
     return (lmb_vec3){f[0], f[1], f[2]};
 }
 
-/* Mean light in the dark part as % of that in the lit part: baked, with few samples, and by cuts. */
+/* Mean light in the dark part as % of that in the lit part: baked, live, and by cuts. */
 static void put_leak(hard_list *l, int (*make)(hard_stage *), const char *name, dvec dark, dvec to, double bound)
 {
     static const char unit[] = "% of the lit side";
@@ -155,7 +155,7 @@ static void put_leak(hard_list *l, int (*make)(hard_stage *), const char *name, 
     end_baked(&b, s);
     const double exact = mean_seen(s, lit, at, EXACT);
     hard_put(l, HARD_MEASURED, name, by_bake, bound, unit);
-    hard_put(l, HARD_MEASURED, "by few samples", 100.0 * hard_share(mean_of_few(s, dark, to), exact), 0.001, unit);
+    hard_put(l, HARD_MEASURED, "by live light", 100.0 * hard_share(mean_of_live(s, dark, to), exact), 0.001, unit);
     hard_put(l, HARD_MEASURED, "by cuts", 100.0 * hard_share(mean_seen(s, dark, to, EXACT), exact), 0.001, unit);
 }
 
@@ -171,11 +171,11 @@ static double rmse_of(const hard_stage *s, const float *picture)
     return 100.0 * hard_share(sqrt(off / FLOATS), all / FLOATS);
 }
 
-/* Compares baked light, and light by few samples, with nearly exact cuts. */
+/* Compares baked light, and live light, with nearly exact cuts. */
 static void put_beside(hard_list *l, int (*make)(hard_stage *), const char *name, dvec from, dvec to, double bound,
-                       double few_bound)
+                       double live_bound)
 {
-    static float by_bake[FLOATS], by_few[FLOATS];
+    static float by_bake[FLOATS], by_live[FLOATS];
     hard_stage *s = l->stage;
     const lmb_vec3 eyes[1] = {eye_at(from)};
     baked b;
@@ -183,12 +183,12 @@ static void put_beside(hard_list *l, int (*make)(hard_stage *), const char *name
     if (ok) {
         memcpy(by_bake, s->out, sizeof by_bake);
         end_baked(&b, s);
-        ok = mean_of_few(s, from, to) < HUGE_VAL;
-        memcpy(by_few, s->out, sizeof by_few);
+        ok = mean_of_live(s, from, to) < HUGE_VAL;
+        memcpy(by_live, s->out, sizeof by_live);
     }
     ok = ok && mean_seen(s, from, to, EXACT) < HUGE_VAL;
     hard_put(l, HARD_MEASURED, name, ok ? rmse_of(s, by_bake) : HUGE_VAL, bound, "% rmse");
-    hard_put(l, HARD_MEASURED, "by few samples", ok ? rmse_of(s, by_few) : HUGE_VAL, few_bound, "% rmse");
+    hard_put(l, HARD_MEASURED, "by live light", ok ? rmse_of(s, by_live) : HUGE_VAL, live_bound, "% rmse");
 }
 
 void hard_baked(hard_list *l)
@@ -196,7 +196,7 @@ void hard_baked(hard_list *l)
     put_leak(l, thin_wall, "baked: behind a thin wall", dvec_of(-1.0, 1.2, 0.5), dvec_of(-0.4, 0.8, -1), 1.0);
     put_leak(l, cupboard, "baked: in a closed cupboard", dvec_of(-1.2, 0.6, -1.1), dvec_of(-1.3, 0.3, -1.5), 1.2);
     put_beside(l, box_on_floor, "baked: a box on a floor, against cuts", dvec_of(0.8, 0.9, 0.8),
-               dvec_of(-0.2, 0.1, -0.4), 7.5, 5.0);
-    put_beside(l, book_on_shelf, "a book on a shelf", dvec_of(0.5, 1.3, -1.0), dvec_of(0.1, 1.05, -1.9), 8.5, 5.0);
-    put_beside(l, leaves, "under a screen of leaves", dvec_of(1.5, 0.6, 1.5), dvec_of(0, 0.2, 0), 5.5, 11.5);
+               dvec_of(-0.2, 0.1, -0.4), 7.5, 10.0);
+    put_beside(l, book_on_shelf, "a book on a shelf", dvec_of(0.5, 1.3, -1.0), dvec_of(0.1, 1.05, -1.9), 8.5, 12.5);
+    put_beside(l, leaves, "under a screen of leaves", dvec_of(1.5, 0.6, 1.5), dvec_of(0, 0.2, 0), 5.5, 15.0);
 }

@@ -18,11 +18,14 @@ hard_stage *hard_stage_make(const lmb_kernels *kernels)
     s->tree_bytes = lmb_tree_bytes(HARD_FACES, HARD_TREE);
     s->bvh_bytes = lmb_bvh_bytes(HARD_TRIANGLES);
     s->lattice_bytes = lmb_lattice_bytes(HARD_SIDE, HARD_SIDE);
+    s->live_bytes = lmb_live_bytes(HARD_FACES, lmb_live_side(HARD_FACES, HARD_MAP), 0);
     s->map_memory = malloc(s->map_bytes);
     s->tree_memory = malloc(s->tree_bytes);
     s->bvh_memory = malloc(s->bvh_bytes);
     s->lattice_memory = malloc(s->lattice_bytes);
-    if (s->map_memory == NULL || s->tree_memory == NULL || s->bvh_memory == NULL || s->lattice_memory == NULL) {
+    s->live_memory = malloc(s->live_bytes);
+    if (s->map_memory == NULL || s->tree_memory == NULL || s->bvh_memory == NULL || s->lattice_memory == NULL ||
+        s->live_memory == NULL) {
         hard_stage_free(s);
         return NULL;
     }
@@ -36,6 +39,7 @@ void hard_stage_free(hard_stage *s)
         free(s->tree_memory);
         free(s->bvh_memory);
         free(s->lattice_memory);
+        free(s->live_memory);
         free(s);
     }
 }
@@ -315,6 +319,11 @@ lmb_status hard_frame(hard_stage *s, int32_t show, int32_t map, float error)
     lmb_bvh_init(&f.bvh, HARD_TRIANGLES, s->bvh_memory, s->bvh_bytes);
     f.gather_step = s->gather_step;
     lmb_lattice_init(&f.lattice, side, side, s->lattice_memory, s->lattice_bytes);
+    lmb_live_init(&s->live, HARD_FACES, lmb_live_side(HARD_FACES, HARD_MAP), 0, s->live_memory, s->live_bytes);
+    s->live.strata = LMB_LIVE_STRATA / 2;
+    s->live.split = 8.0f;
+    f.live = &s->live;
+    s->scratch.live = &s->live_scratch;
     lmb_surface_init(&f.out, LMB_RGB32F, side, side, s->out, sizeof s->out);
     lmb_surface_clear(&s->eye.depth);
     lmb_surface_clear(&s->eye.id);

@@ -36,8 +36,10 @@ typedef struct hard_stage {
     lmb_transfer_light transfer_light;
     int32_t gather_step; /* 0: every pixel */
     int32_t tree_size;   /* first points per side; 0: the map's, HARD_TREE at most */
-    void *map_memory, *tree_memory, *bvh_memory, *lattice_memory;
-    size_t map_bytes, tree_bytes, bvh_bytes, lattice_bytes;
+    lmb_live live;
+    lmb_live_scratch live_scratch;
+    void *map_memory, *tree_memory, *bvh_memory, *lattice_memory, *live_memory;
+    size_t map_bytes, tree_bytes, bvh_bytes, lattice_bytes, live_bytes;
 } hard_stage;
 
 /* Returns NULL if memory is short. */

@@ -398,25 +398,24 @@ static int32_t samples_of(const render_options *o)
     return !shows_light ? 1 : o->samples != 0 ? o->samples : is_for_display ? 4 : 1;
 }
 
-/* The default of --gather. Draft, and `play` by default, use light of single points: a tenth of the time, under a sky
- * half to a tenth; pictures of 64x48 lose up to .11 of trim. So does `default` if many lights are all the light: .02 of
- * trim, .03 by other ways; but not if they make a soft shadow: .19, .12. A sky lights softly from all sides, so
- * otherwise few samples are enough: half the time, for .004 to .008 of trim. Small pictures gain no time and lose .01.
- * A budget makes a choice of its own. */
+/* The default of --gather. Draft, and `play` by default, use light of single points: a tenth of the time; pictures of
+ * 64x48 lose up to .11 of trim. So does `default` under a sky, with less error than cuts of the sky, and if many lights
+ * are all the light: .02 of trim, .03 by cuts; but not if they make a soft shadow: .19, .12. A budget makes a choice of
+ * its own. */
 static int32_t gather_of(const render_job *j)
 {
     const render_options *o = &j->o;
     const int is_cut = o->grouping.method == LMB_GROUP_CUT && j->transfer_file.data == NULL && !o->conservative;
     const int is_small = o->view.width * o->view.height < FEW_SAMPLES;
-    const int is_soft = j->gathers_sky && o->quality != LMB_QUALITY_BEST && is_cut && !is_small;
     const int is_asked = o->error > 0.0f || o->visibility > 0.0f || o->tree > 0; /* single points use none of these */
     const int is_even = j->many_lights.tree.lights >= LMB_MANY_LIGHTS_EVEN && j->scene.light_count == 0 &&
                         j->wide == NULL && !j->gathers_sky;
     const int is_quick =
-        o->quality == LMB_QUALITY_DRAFT || ((o->is_moving || is_even) && o->quality == LMB_QUALITY_DEFAULT);
+        o->quality == LMB_QUALITY_DRAFT ||
+        ((o->is_moving || is_even || j->gathers_sky) && o->quality == LMB_QUALITY_DEFAULT);
     const int is_live =
         LMB_LIVE && is_cut && !is_asked && !has_budget(&o->budget, o->budget_ms) && is_quick && !is_small;
-    return o->gather_step != 0 ? o->gather_step : is_live ? LMB_GATHER_LIVE : is_soft ? LMB_GATHER_ADAPTIVE : 0;
+    return o->gather_step != 0 ? o->gather_step : is_live ? LMB_GATHER_LIVE : 0;
 }
 
 /* The settings that determine the frame's memory. `bare`: the scene without lights, for attributes. */

@@ -74,9 +74,10 @@ static const char *const rests[] = {"estimate", "none", NULL};
 static const char *const occlusions[] = {"exact", "none", "view", "view-world", NULL};
 static const int32_t occlusion_values[] = {LMB_OCCLUSION_EXACT, LMB_OCCLUSION_NONE, LMB_OCCLUSION_VIEW,
                                            LMB_OCCLUSION_VIEW_WORLD};
-static const char *const gathers[] = {"full", "adaptive", "live", NULL};
-static const int32_t gather_values[] = {1, LMB_GATHER_ADAPTIVE, LMB_GATHER_LIVE};
-static const char *const gone_gathers[] = {"half", "live, or full for less error", "quarter", "live", NULL};
+static const char *const gathers[] = {"full", "live", NULL};
+static const int32_t gather_values[] = {1, LMB_GATHER_LIVE};
+static const char *const gone_gathers[] = {"half",     "live, or full for less error", "quarter", "live",
+                                           "adaptive", "live, or full for less error", NULL};
 static const char *const shows[] = {"full",           "direct", "indirect", "irradiance", "depth", "eye-distance",
                                     "normal",         "albedo", "light-distance", "points", "groups", "occlusion",
                                     "wireframe",      NULL};
@@ -217,11 +218,11 @@ const option_row render_bounce_rows[] = {
                   "which misses geometry that is off screen or hidden")},
     {.name = "--gather", .kind = OPTION_WORD, AT(gather_step), .words = gathers, .values = gather_values,
      .gone = gone_gathers,
-     .help = HELP("full: every pixel; adaptive: every eighth pixel each way, interpolated if surface and light are "
-                  "continuous, and denser if the light needs it, or for a smaller --error; live: like adaptive, "
-                  "with 64 segments each (draft: 32): the fastest, for moving light. Default: full; from 65,536 "
-                  "pixels on, except with best: live for --quality draft, for `play` and for many lights, unless "
-                  "you give --error, --visibility, --tree or a budget; otherwise adaptive under a sky")},
+     .help = HELP("full: every pixel; live: every 16th pixel each way, by 64 segments each (draft: 32), denser if the "
+                  "light needs it, and interpolated if surface and light are continuous: the fastest, for moving "
+                  "light. Default: full; from 65,536 pixels on, except with best: live for --quality draft, for "
+                  "`play`, under a sky and for many lights, unless you give --error, --visibility, --tree or a "
+                  "budget")},
     {.kind = OPTION_END},
 };
 

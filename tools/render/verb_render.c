@@ -130,9 +130,7 @@ static void tell_how(const render_job *j)
     report_note(0, "%d threads of %s lanes; --gather %s --shadow-map %d --tree %d --error %.3g --visibility %.3g; "
                    "%.0f KiB",
                 j->workers.threads, lmb_kernels_name(f->kernels),
-                f->gather_step == LMB_GATHER_LIVE       ? "live"
-                : f->gather_step == LMB_GATHER_ADAPTIVE ? "adaptive"
-                                                        : "full",
+                f->gather_step == LMB_GATHER_LIVE ? "live" : "full",
                 (int)f->shadow_map, (int)f->tree.size, (double)f->error, (double)f->visibility,
                 (double)(j->bytes + j->many_lights.bytes) / 1024.0);
     report_note(0, "%-13s %8.1f ms", "reading", j->load_s * 1e3);
@@ -252,8 +250,8 @@ static int run(render_job *j, report *r)
         return 0;
     }
     report_note(j->o.view.is_quiet || j->o.slice.count == 0 ||
-                    (j->frame.gather_step != LMB_GATHER_ADAPTIVE && j->frame.gather_step != LMB_GATHER_LIVE),
-                "note: --gather adaptive and live take their samples from the whole picture in every slice; full is "
+                    j->frame.gather_step != LMB_GATHER_LIVE,
+                "note: --gather live takes its samples from the whole picture in every slice; full is "
                 "shared");
     tell_loss(j);
     tell_regroups(j);

@@ -335,7 +335,7 @@ function helper() {
 function page() {
     const $ = (id) => document.getElementById(id);
     const asked = new URLSearchParams(location.search);
-    const LEVELS = ['baked', 'adaptive', 'draft', 'default', 'best'];
+    const LEVELS = ['baked', 'draft', 'default', 'best'];
     const view = $('view').getContext('2d'), over = $('over').getContext('2d');
     const worker = new Worker('lambent.js', { name: 'engine' });
     const waiting = new Map();
@@ -559,7 +559,6 @@ function page() {
         if (level === 'baked' && now.transfer && show() !== 'cut' && show() !== 'occlusion') {
             return [...w, '--transfer', now.transfer];
         }
-        if (level === 'adaptive') return [...w, '--quality', 'draft', '--gather', 'adaptive'];
         return [...w, '--quality', level === 'baked' || show() === 'cut' && level === 'default' ? 'draft' : level];
     }
     async function fetchFile(name) {
