@@ -65,7 +65,13 @@ int verb_mix(int argc, char **argv)
         return options_answer(asked, &mix_table, &r);
     }
     progress_begin(j->o.is_quiet, "mix");
+#if !defined(OPTIONS_WITHOUT_HELP)
+    const int ok = j->o.frames != NULL       ? mix_frames(&j->o, &r)
+                   : j->o.placements != NULL ? mix_placements(j, &r)
+                                             : mix(j, &r);
+#else
     const int ok = j->o.frames != NULL ? mix_frames(&j->o, &r) : mix(j, &r);
+#endif
     progress_end();
     mix_job_free(j);
     return ok ? 0 : report_end(&r, "mix", 1);

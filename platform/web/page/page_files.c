@@ -367,9 +367,15 @@ void mix_labels_sample(const mix_job *j, const lmb_tile *real, const lmb_tile *o
 {
     (void)j, (void)real, (void)object, (void)shown;
 }
-void mix_labels_cover(const mix_job *j, const lmb_tile *real, const float covered[LMB_TILE_PIXELS])
+void mix_labels_cover(const mix_job *j, const lmb_tile *real, const lmb_radiance *over,
+                      const float covered[LMB_TILE_PIXELS])
 {
-    (void)j, (void)real, (void)covered;
+    (void)j, (void)real, (void)over, (void)covered;
+}
+void mix_labels_grain(lmb_radiance *inout, const mix_job *j, const lmb_tile *real,
+                      const float covered[LMB_TILE_PIXELS])
+{
+    (void)inout, (void)j, (void)real, (void)covered;
 }
 
 /* --- mix_frame.h, mix_job.h: depth has the photo's size, and planes do not change --------------------------------- */
