@@ -11,24 +11,24 @@ enum { MIX_BLOCK_WAYS = 48 /* directions of the environment */ };
 
 /* The object as seen from a direction or, if `is_near`, from a lamp. */
 typedef struct mix_block_view {
-    lmb_vec3 x, y, to;  /* unit; `to`: towards the light */
-    lmb_vec3 middle;    /* of the object */
-    float away;         /* of a lamp, from the middle, in mesh units */
+    lmb_vec3 x, y, to; /* unit; `to`: towards the light */
+    lmb_vec3 middle;   /* of the object */
+    float away;        /* of a lamp, from the middle, in mesh units */
     int is_near;
-    float per_unit;     /* texels */
+    float per_unit; /* texels */
     int32_t side;
-    float *key;         /* side x side: how near to the light the object reaches, mesh units; -FLT_MAX: not there */
-    float *sum;         /* (side + 1) x (side + 1): texels covered, summed from the first corner */
-    float low, high;    /* of the keys */
+    float *key;      /* side x side: how near to the light the object reaches, mesh units; -FLT_MAX: not there */
+    float *sum;      /* (side + 1) x (side + 1): texels covered, summed from the first corner */
+    float low, high; /* of the keys */
 } mix_block_view;
 
 /* A mesh without its structure. */
 typedef struct mix_block {
-    float *corner;      /* 9 per triangle, mesh space */
+    float *corner; /* 9 per triangle, mesh space */
     uint32_t triangles;
     lmb_vec3 middle;
     float radius;
-    float albedo[3];    /* mean, by area */
+    float albedo[3];                    /* mean, by area */
     mix_block_view way[MIX_BLOCK_WAYS]; /* evenly spread over the sphere */
     void *memory;
 } mix_block;

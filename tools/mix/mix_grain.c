@@ -8,7 +8,7 @@
 
 enum { BINS = 512 };
 
-#define WIDEST  0.125f /* largest difference counted */
+#define WIDEST  0.125f  /* largest difference counted */
 #define QUARTER 3.1381f /* 1 / the first quartile of |x| of a normal distribution of deviation 1 */
 
 /* Differences of squares, by size. */

@@ -93,8 +93,7 @@ void mix_labels_cover(const mix_job *j, const lmb_tile *real, const lmb_radiance
     }
 }
 
-void mix_labels_grain(lmb_radiance *inout, const mix_job *j, const lmb_tile *real,
-                      const float covered[LMB_TILE_PIXELS])
+void mix_labels_grain(lmb_radiance *inout, const mix_job *j, const lmb_tile *real, const float covered[LMB_TILE_PIXELS])
 {
     if (j->grain != NULL) {
         mix_grain_add(inout, j->grain, covered, real->x, real->y);
@@ -148,11 +147,10 @@ static int write_object(const mix_job *j, report *r)
     file_bytes file = {NULL, 0};
     const image p = {
         .width = j->frame.light.width, .height = j->frame.light.height, .channels = 3, .pixels = j->labels->rgb};
-    const int ok =
-        (snprintf(path, sizeof path, "%s.object.png", j->o.labels) < PATH_CAP ||
-         report_fail(r, "--labels: the name is too long")) &&
-        picture_encode_alpha(&file, &p, j->labels->covered, mix_exposure(j), PICTURE_CLIPPED, r) &&
-        file_write(path, file.data, file.size, r);
+    const int ok = (snprintf(path, sizeof path, "%s.object.png", j->o.labels) < PATH_CAP ||
+                    report_fail(r, "--labels: the name is too long")) &&
+                   picture_encode_alpha(&file, &p, j->labels->covered, mix_exposure(j), PICTURE_CLIPPED, r) &&
+                   file_write(path, file.data, file.size, r);
     file_free(&file);
     return ok;
 }
@@ -197,8 +195,11 @@ static int write_pose(const mix_job *j, report *r)
     const lmb_pinhole *c = &j->frame.camera;
     text_buffer out;
     memset(&out, 0, sizeof out);
-    text_buffer_add(&out, "{\n  \"width\": %d,\n  \"height\": %d,\n  \"fx\": %.9g,\n  \"fy\": %.9g,\n  \"cx\": %.9g,\n  \"cy\": "
-                   "%.9g,\n", (int)c->width, (int)c->height, (double)c->fx, (double)c->fy, (double)c->cx, (double)c->cy);
+    text_buffer_add(
+        &out,
+        "{\n  \"width\": %d,\n  \"height\": %d,\n  \"fx\": %.9g,\n  \"fy\": %.9g,\n  \"cx\": %.9g,\n  \"cy\": "
+        "%.9g,\n",
+        (int)c->width, (int)c->height, (double)c->fx, (double)c->fy, (double)c->cx, (double)c->cy);
     if (j->frame.has_pose) {
         double pose[3][4];
         memcpy(pose, j->frame.pose, sizeof pose);
@@ -207,7 +208,8 @@ static int write_pose(const mix_job *j, report *r)
     }
     put_pose(&out, "  ", j, &j->labels->placed[0]);
     for (int32_t i = 0; i < j->labels->count && j->labels->count > 1; ++i) {
-        text_buffer_add(&out, i == 0 ? ",\n  \"objects\": [{\n    \"mask\": %d,\n" : "}, {\n    \"mask\": %d,\n", 255 - (int)i);
+        text_buffer_add(&out, i == 0 ? ",\n  \"objects\": [{\n    \"mask\": %d,\n" : "}, {\n    \"mask\": %d,\n",
+                        255 - (int)i);
         put_pose(&out, "    ", j, &j->labels->placed[i]);
     }
     text_buffer_add(&out, j->labels->count > 1 ? "}]\n}\n" : "\n}\n");

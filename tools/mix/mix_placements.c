@@ -34,8 +34,8 @@ typedef struct placements {
     int32_t count, cap;
     mix_thing *thing;
     int32_t things;
-    mix_spot *spot;     /* by row */
-    int32_t *first;     /* by picture: its first row; one more at the end */
+    mix_spot *spot; /* by row */
+    int32_t *first; /* by picture: its first row; one more at the end */
     int32_t pictures;
     mix_swift swift;
     mix_swift_desk *desk[POOL_MAX];
@@ -151,8 +151,8 @@ static int set_row(placements *p, list_row *row, char *const word[WORDS], report
         return fail_row(p, row, r, "SIZE is no number of metres, 0.000001 .. 1000000, fit or -");
     }
     const lmb_pinhole *c = &p->j->frame.camera;
-    if (row->at == MIX_AT_PIXEL && !(row->px[0] >= 0.0f && row->px[1] >= 0.0f && row->px[0] < (float)c->width &&
-                                     row->px[1] < (float)c->height)) {
+    if (row->at == MIX_AT_PIXEL &&
+        !(row->px[0] >= 0.0f && row->px[1] >= 0.0f && row->px[0] < (float)c->width && row->px[1] < (float)c->height)) {
         return report_fail(r, "%s: line %d: PLACE %s: the photo has %d x %d pixels", p->path, (int)row->line, word[2],
                            (int)c->width, (int)c->height);
     }

@@ -17,18 +17,18 @@
 
 enum { SUN_SIDE = 96, GRID = 24 /* cells of ground about the foot, a side */, SAMPLES = 16 /* maximum */ };
 
-#define EACH    (4.0f * PI / (float)MIX_BLOCK_WAYS) /* solid angle of a direction */
-#define SPREAD  0.29f  /* tangent of half the cone of one of MIX_BLOCK_WAYS directions */
-#define AROUND  3.0f   /* the ground's cells reach this far from the middle, in radii */
-#define LEAST   0.004f /* share of the light: an object that blocks less is too far away */
-#define MOST    0.012f /* from here on all of it counts */
-#define UNDER   0.03f  /* m: surfaces farther below the object's plane are hidden by it */
-#define SHADED  0.6f   /* of the environment that an object's side sees */
+#define EACH   (4.0f * PI / (float)MIX_BLOCK_WAYS) /* solid angle of a direction */
+#define SPREAD 0.29f                               /* tangent of half the cone of one of MIX_BLOCK_WAYS directions */
+#define AROUND 3.0f                                /* the ground's cells reach this far from the middle, in radii */
+#define LEAST  0.004f                              /* share of the light: an object that blocks less is too far away */
+#define MOST   0.012f                              /* from here on all of it counts */
+#define UNDER  0.03f                               /* m: surfaces farther below the object's plane are hidden by it */
+#define SHADED 0.6f                                /* of the environment that an object's side sees */
 
 /* A tile of the photo. */
 typedef struct mix_area {
     lmb_vec3 at, normal; /* means */
-    float radius; /* under 0: nothing is measured */
+    float radius;        /* under 0: nothing is measured */
     uint64_t lit;
 } mix_area;
 
@@ -36,15 +36,15 @@ typedef struct mix_area {
 typedef struct placed {
     const mix_block *block;
     const mix_spot *spot;
-    lmb_mat4 from_scene; /* to mesh space */
-    float per_metre;     /* mesh units */
-    lmb_vec3 middle, normal; /* scene space; of the plane */
-    float radius;            /* m */
-    float foot;              /* height of the plane along `out`, mesh space */
-    lmb_vec3 out;            /* the plane's normal in mesh space */
-    lmb_vec3 across, along;  /* in the plane */
+    lmb_mat4 from_scene;                                   /* to mesh space */
+    float per_metre;                                       /* mesh units */
+    lmb_vec3 middle, normal;                               /* scene space; of the plane */
+    float radius;                                          /* m */
+    float foot;                                            /* height of the plane along `out`, mesh space */
+    lmb_vec3 out;                                          /* the plane's normal in mesh space */
+    lmb_vec3 across, along;                                /* in the plane */
     float way[MIX_BLOCK_WAYS][3], back[MIX_BLOCK_WAYS][3]; /* radiance from there; of the object towards there */
-    lmb_vec3 to[MIX_BLOCK_WAYS]; /* in mesh space */
+    lmb_vec3 to[MIX_BLOCK_WAYS];                           /* in mesh space */
     mix_block_view sun[MIX_SWIFT_LIGHTS];
     uint8_t has_sun[MIX_SWIFT_LIGHTS];
     float spread[MIX_SWIFT_LIGHTS];
@@ -75,10 +75,10 @@ struct mix_swift_desk {
     lmb_radiance photo, light, over;
     float covered[LMB_TILE_PIXELS], left[3][LMB_TILE_PIXELS];
     lmb_vec3 last_normal;
-    float last_around[3]; /* irradiance of the environment on it */
+    float last_around[3];                                 /* irradiance of the environment on it */
     lmb_vec3 at[LMB_TILE_PIXELS], faces[LMB_TILE_PIXELS]; /* of the light that samples of a pixel share */
     uint64_t known;
-    mix_job job;    /* for labels */
+    mix_job job; /* for labels */
     struct mix_labels labels;
 };
 
@@ -236,10 +236,8 @@ static void light_of(float out[3], const lmb_light *l, lmb_vec3 p, lmb_vec3 n)
         to = unit(d);
         by = 1.0f / far2;
         if (l->kind == LMB_LIGHT_SPOT) {
-            const float t = fminf(fmaxf((-dot(to, l->direction) - l->cos_outer) /
-                                            fmaxf(l->cos_inner - l->cos_outer, 1e-6f),
-                                        0.0f),
-                                  1.0f);
+            const float t = fminf(
+                fmaxf((-dot(to, l->direction) - l->cos_outer) / fmaxf(l->cos_inner - l->cos_outer, 1e-6f), 0.0f), 1.0f);
             by *= t * t * (3.0f - 2.0f * t);
         }
     }
@@ -307,10 +305,10 @@ static void set_suns(placed *o, const mix_job *j)
     for (int32_t i = 0; i < sun_count(j); ++i) {
         const lmb_light *l = &j->lights[i];
         const int is_near = l->kind != LMB_LIGHT_DIRECTIONAL;
-        const lmb_vec3 to = is_near ? mix_move(&o->from_scene, l->position)
-                                    : mix_turn(&o->from_scene, to_light(l, o->middle));
-        o->has_sun[i] = (uint8_t)mix_block_look(&o->sun[i], o->block, to, is_near, SUN_SIDE,
-                                                (char *)o->memory + (size_t)i * bytes);
+        const lmb_vec3 to =
+            is_near ? mix_move(&o->from_scene, l->position) : mix_turn(&o->from_scene, to_light(l, o->middle));
+        o->has_sun[i] =
+            (uint8_t)mix_block_look(&o->sun[i], o->block, to, is_near, SUN_SIDE, (char *)o->memory + (size_t)i * bytes);
         o->spread[i] = spread_of(j, i, o->middle);
     }
 }
@@ -636,12 +634,12 @@ static void mirror_env(mix_swift_desk *d)
         }
         const placed *o = &d->object[object_of(d, d->object_tile.id[k])];
         const lmb_vec3 n = normal_of(&d->object_tile, k),
-                   v = {d->lobes.towards[0][k], d->lobes.towards[1][k], d->lobes.towards[2][k]}, zero = {0, 0, 0},
+                       v = {d->lobes.towards[0][k], d->lobes.towards[1][k], d->lobes.towards[2][k]}, zero = {0, 0, 0},
                        to = unit(plus(plus(zero, v, -1.0f), n, 2.0f * dot(n, v)));
         const float alpha = sqrtf(d->lobes.alpha2[k]), rise = powf(1.0f - fminf(d->lobes.facing[k], 1.0f), 5.0f),
                     dull = (1.0f - alpha) * (1.0f - alpha) * (1.0f - alpha);
-        const float *ground = ground_at(o, mix_move(&o->from_scene, position_of(&d->object_tile, k)),
-                                        unit(mix_turn(&o->from_scene, to)));
+        const float *ground =
+            ground_at(o, mix_move(&o->from_scene, position_of(&d->object_tile, k)), unit(mix_turn(&o->from_scene, to)));
         float rgb[3];
         lmb_env_sample(rgb, &d->s->j->env[0], to, lmb_cone_tangent(sqrtf(alpha)));
         for (int c = 0; c < 3; ++c) {
@@ -678,8 +676,7 @@ static void light_object(mix_swift_desk *d, int32_t sample)
         lmb_direct_tile(&d->one, j->o.kernels, t, view, &d->scene, &j->lights[i], &j->maps[i][0]);
         for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
             if (d->one.rgb[0][k] + d->one.rgb[1][k] + d->one.rgb[2][k] > 0.0f) {
-                const float open = times * open_of(d, object_of(d, t->id[k]), position_of(t, k),
-                                                   normal_of(t, k), i);
+                const float open = times * open_of(d, object_of(d, t->id[k]), position_of(t, k), normal_of(t, k), i);
                 for (int c = 0; c < 3; ++c) {
                     d->one.rgb[c][k] *= open;
                     d->all.rgb[c][k] += d->one.rgb[c][k];
@@ -711,7 +708,8 @@ static void put_object(mix_swift_desk *d)
     d->known = 0;
     for (int32_t i = 0; i < d->samples; ++i) {
         if (lmb_resolve_tile(&d->object_tile, j->o.kernels, &d->view[i], &d->scene, &d->eye[i], d->x0 + d->real.x,
-                             d->y0 + d->real.y) != LMB_OK || d->object_tile.hits == 0) {
+                             d->y0 + d->real.y) != LMB_OK ||
+            d->object_tile.hits == 0) {
             continue;
         }
         light_object(d, i);
@@ -811,8 +809,7 @@ static int join_scene(mix_swift_desk *d, const mix_spot *spots, report *r)
     to->instances = d->instances;
     lmb_scene_bounds(&to->bounds_min, &to->bounds_max, to);
     return lmb_scene_check(to) == LMB_OK ||
-           report_fail(r, "%s: too large where it stands; the list's size sets metres",
-                       s->things[spots[0].thing].path);
+           report_fail(r, "%s: too large where it stands; the list's size sets metres", s->things[spots[0].thing].path);
 }
 
 /* The part of the picture that the objects may cover. */
@@ -1019,8 +1016,7 @@ static int take_desk(mix_swift_desk *d, const mix_swift *s)
     d->picture.pixels = malloc(3 * pixels * sizeof(float));
     d->codes = malloc(3 * pixels);
     d->is_changed = calloc((size_t)s->columns * (size_t)s->rows, 1);
-    d->surfaces =
-        malloc((size_t)samples * (lmb_surface_bytes(LMB_DEPTH32F, w, h) + lmb_surface_bytes(LMB_ID32, w, h)));
+    d->surfaces = malloc((size_t)samples * (lmb_surface_bytes(LMB_DEPTH32F, w, h) + lmb_surface_bytes(LMB_ID32, w, h)));
     int ok = d->picture.pixels != NULL && d->codes != NULL && d->is_changed != NULL && d->surfaces != NULL;
     if (s->j->o.labels != NULL) {
         d->labels.covered = malloc(MIX_LABEL_FLOATS * pixels * sizeof(float));

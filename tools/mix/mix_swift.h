@@ -29,11 +29,11 @@ typedef struct mix_spot {
 
 /* Of the photo. */
 typedef struct mix_swift {
-    mix_job *j;          /* planes, real mesh, environment, lights */
+    mix_job *j; /* planes, real mesh, environment, lights */
     const mix_thing *things;
-    uint64_t *lit;       /* by pixel: lights that reach it, a bit each */
+    uint64_t *lit;         /* by pixel: lights that reach it, a bit each */
     struct mix_area *area; /* by tile */
-    uint8_t *codes;      /* 3 per pixel, for display formats; or NULL */
+    uint8_t *codes;        /* 3 per pixel, for display formats; or NULL */
     float exposure_ev;
     int32_t columns, rows; /* of tiles */
 } mix_swift;
