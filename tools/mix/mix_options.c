@@ -48,6 +48,9 @@ static int parse_roughness(const char *text, void *at)
 
 static const char *const cones[] = {"7", "19", "37", NULL};
 static const int32_t cone_values[] = {7, 19, 37};
+#if !defined(OPTIONS_WITHOUT_HELP)
+static const char *const missing[] = {"skip", "estimate", NULL};
+#endif
 static const char *const ons[] = {"floor", "table", "wall", NULL};
 static const int32_t on_values[] = {MIX_ON_FLOOR, MIX_ON_TABLE, MIX_ON_WALL};
 static const char *const shows[] = {"final", "delta", "planes", "voxels", "env", "object", NULL};
@@ -68,6 +71,12 @@ static const option_row photo_rows[] = {
              "again only if a twentieth of the surfaces around it is new or gone, or if the photo is that much "
              "brighter or darker. -o is a pattern, as frame_%04d.png. A frame that cannot be used is reported and "
              "left out; the exit status is then 1")},
+#endif
+#if !defined(OPTIONS_WITHOUT_HELP)
+    {.name = "--missing-depth", .kind = OPTION_WORD, AT(source.may_lack_depth), .words = missing,
+     .help = HELP("of frames without a depth file, or TUM photos without a depth within 0.02 s. skip: they are left out "
+             "(default); estimate: their depth is what earlier frames and the planes in them show from the new pose; "
+             "the first frame must have depth")},
 #endif
     {.name = "--photo", .value = "FILE", .kind = OPTION_TEXT, AT(source.photo), .file = OPTION_READS,
      .help = HELP(".png .jpg .pfm")},
@@ -254,6 +263,9 @@ static int complete_photo(const mix_options *o, report *r)
 
 static int complete(const mix_options *o, report *r)
 {
+    if (o->frames == NULL && o->source.may_lack_depth) {
+        return report_fail(r, "--missing-depth estimate needs earlier frames; add --frames");
+    }
     if (!(o->frames != NULL ? complete_frames(o, r) : complete_photo(o, r))) {
         return 0;
     }

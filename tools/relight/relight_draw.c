@@ -465,7 +465,9 @@ static int can_be_read(const char *name, report *r)
     world_pictures own;
     memset(&place, 0, sizeof place);
     memset(&own, 0, sizeof own);
-    const int ok = file_is_plain(name, r) && file_keep(name, r) && world_read_cube(&place, &own, name, r);
+    report none = {""}; /* a prefix of six files is no file */
+    const int ok =
+        world_read_cube(&place, &own, name, r) && (!file_is_plain(name, &none) || file_keep(name, r));
     world_pictures_free(&own);
     return ok;
 }
