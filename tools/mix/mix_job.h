@@ -105,6 +105,7 @@ typedef struct mix_job {
     int32_t light_count, lamp_count; /* the last lamp_count lights are the object's own and exist only with it */
     struct mix_sources *sources; /* the object's own light sources; NULL: none */
     const lmb_scene *bounces;  /* the scene, with lobes as if diffuse */
+    const lmb_scene *shiny;   /* the scene as drawn, also with lobes of plastics: mix_lobes.h */
     lmb_voxels voxels;   /* around the object; count 0: there are none */
     lmb_cones cones;
     lmb_cone_width glossy;

@@ -10,6 +10,7 @@
 #include "../common/binned.h"
 #include "../picture/picture.h"
 #include "mix_front.h"
+#include "mix_lobes.h"
 #include "mix_run.h"
 #include "mix_turn.h"
 
@@ -23,6 +24,7 @@ enum { SUN_SIDE = 96, GRID = 24 /* cells of ground about the foot, a side */, SA
 #define LEAST  0.004f                              /* share of the light: an object that blocks less is too far away */
 #define MOST   0.012f                              /* from here on all of it counts */
 #define UNDER  0.03f                               /* m: surfaces farther below the object's plane are hidden by it */
+#define RIM    0.15f                               /* as in mix_lobes.c */
 #define SHADED 0.6f                                /* of the environment that an object's side sees */
 
 /* A tile of the photo. */
@@ -636,8 +638,8 @@ static void mirror_env(mix_swift_desk *d)
         const lmb_vec3 n = normal_of(&d->object_tile, k),
                        v = {d->lobes.towards[0][k], d->lobes.towards[1][k], d->lobes.towards[2][k]}, zero = {0, 0, 0},
                        to = unit(plus(plus(zero, v, -1.0f), n, 2.0f * dot(n, v)));
-        const float alpha = sqrtf(d->lobes.alpha2[k]), rise = powf(1.0f - fminf(d->lobes.facing[k], 1.0f), 5.0f),
-                    dull = (1.0f - alpha) * (1.0f - alpha) * (1.0f - alpha);
+        const float alpha = sqrtf(d->lobes.alpha2[k]), edge = 1.0f - fminf(fmaxf(d->lobes.facing[k], RIM), 1.0f),
+                    rise = edge * edge * edge * edge * edge, dull = (1.0f - alpha) * (1.0f - alpha) * (1.0f - alpha);
         const float *ground =
             ground_at(o, mix_move(&o->from_scene, position_of(&d->object_tile, k)), unit(mix_turn(&o->from_scene, to)));
         float rgb[3];
@@ -777,6 +779,7 @@ static int join_scene(mix_swift_desk *d, const mix_spot *spots, report *r)
         for (uint32_t k = 0; k < from->material_count; ++k) {
             lmb_material *m = &d->materials[to->material_count + k];
             *m = from->materials[k];
+            mix_lobes_sheen(m, &s->things[spots[i].thing].object, k);
             m->texture += m->texture >= 0 ? (int32_t)to->texture_count : 0;
             m->normal_map += to->texture_count;
             m->emission_map += m->emission_map > 0 ? to->texture_count : 0;

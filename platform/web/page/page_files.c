@@ -392,6 +392,7 @@ lmb_status wireframe_draw(render_job *j) { return (void)j, LMB_ERR_ARG; }
 /* --- mix_lobes.h, mix_mirror.h, mix_sources.h, mix_job.h: objects are matt, planes do not change ------------------ */
 
 void mix_lobes_read(mix_job *j) { (void)j; }
+int mix_lobes_take(mix_job *j, report *r) { return (void)j, (void)r, 1; }
 void mix_mirror_planes(mix_job *j) { (void)j; }
 int mix_around(mix_job *j, report *r) { return (void)j, (void)r, 1; }
 int32_t mix_sources_find(lmb_light out[MIX_WAYS], mix_job *j, report *r) { return (void)out, (void)j, (void)r, 0; }
