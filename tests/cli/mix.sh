@@ -150,4 +150,10 @@ status 0 mix $seen --light none --placements red.txt --labels lab_ -q
 "$TOOL" info lab_red.object.png >red_object.txt
 check "so does a plastic of a list" sh -c 'grep -q "green min 0 *max [1-9]" red_object.txt'
 
+# An object that glows needs no other light.
+printf 'newmtl glow\nKd 0 0 0\nKe 4 3 2\n' >glow.mtl
+{ printf 'mtllib glow.mtl\nusemtl glow\n'; cat tent.obj; } >glow.obj
+status 0 mix $seen --object glow.obj --scale 0.2 --at 8,12 --shadow-map 64 --voxels 4 --light none --show delta -q -o glow.pfm
+check "an object that glows lights the photo" sh -c '"$1" info "$2" | awk "\$1 == \"red\" { exit !(\$5 > 0.05) }"' sh "$TOOL" glow.pfm
+
 finish

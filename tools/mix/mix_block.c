@@ -11,8 +11,8 @@ enum { WAY_SIDE = 64, MARGIN = 2 /* texels around the object */ };
 static float dot(lmb_vec3 a, lmb_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 /* Calls of fminf and fmaxf took a twentieth of a placement. */
-static float least(float a, float b) { return a < b ? a : b; }
-static float most(float a, float b) { return a > b ? a : b; }
+static float min_of(float a, float b) { return a < b ? a : b; }
+static float max_of(float a, float b) { return a > b ? a : b; }
 
 static lmb_vec3 less(lmb_vec3 a, lmb_vec3 b) { return (lmb_vec3){a.x - b.x, a.y - b.y, a.z - b.z}; }
 
@@ -126,8 +126,8 @@ size_t mix_block_bytes(int32_t side)
     return (n * n + (n + 1) * (n + 1)) * sizeof(float);
 }
 
-/* Position in texels, and the key, which is affine over a triangle in the picture: of a lamp it grows like 1 / distance
- * and, at the middle, by one per unit. */
+/* Position in texels, and the key, which is affine over a triangle in the picture: of a point light it grows like
+ * 1 / distance and, at the middle, by one per unit. */
 static lmb_vec3 project(const mix_block_view *v, lmb_vec3 p)
 {
     const lmb_vec3 d = less(p, v->middle);
@@ -135,7 +135,7 @@ static lmb_vec3 project(const mix_block_view *v, lmb_vec3 p)
     if (!v->is_near) {
         return (lmb_vec3){half + v->per_unit * x, half + v->per_unit * y, to};
     }
-    const float by = v->away / most(v->away - to, 1e-3f * v->away);
+    const float by = v->away / max_of(v->away - to, 1e-3f * v->away);
     return (lmb_vec3){half + v->per_unit * x * by, half + v->per_unit * y * by, v->away * by};
 }
 
@@ -143,10 +143,10 @@ static void draw_triangle(const mix_block_view *v, const lmb_vec3 p[3])
 {
     const float area = (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[2].x - p[0].x) * (p[1].y - p[0].y),
                 side = (float)v->side;
-    const float x0 = most(least(least(p[0].x, p[1].x), p[2].x), 0.0f),
-                x1 = least(most(most(p[0].x, p[1].x), p[2].x), side),
-                y0 = most(least(least(p[0].y, p[1].y), p[2].y), 0.0f),
-                y1 = least(most(most(p[0].y, p[1].y), p[2].y), side);
+    const float x0 = max_of(min_of(min_of(p[0].x, p[1].x), p[2].x), 0.0f),
+                x1 = min_of(max_of(max_of(p[0].x, p[1].x), p[2].x), side),
+                y0 = max_of(min_of(min_of(p[0].y, p[1].y), p[2].y), 0.0f),
+                y1 = min_of(max_of(max_of(p[0].y, p[1].y), p[2].y), side);
     if (!(fabsf(area) > 1e-12f)) {
         return;
     }
@@ -158,7 +158,7 @@ static void draw_triangle(const mix_block_view *v, const lmb_vec3 p[3])
                         c = ((p[1].x - p[0].x) * dy - dx * (p[1].y - p[0].y)) * by;
             if (b >= 0.0f && c >= 0.0f && b + c <= 1.0f) {
                 float *key = &v->key[y * v->side + x];
-                *key = most(*key, p[0].z + b * (p[1].z - p[0].z) + c * (p[2].z - p[0].z));
+                *key = max_of(*key, p[0].z + b * (p[1].z - p[0].z) + c * (p[2].z - p[0].z));
             }
         }
     }
@@ -195,7 +195,7 @@ int mix_block_look(mix_block_view *v, const mix_block *b, lmb_vec3 to, int is_ne
         return 0;
     }
     const float grows = is_near ? v->away / sqrtf(v->away * v->away - b->radius * b->radius) : 1.0f;
-    v->per_unit = (0.5f * (float)side - MARGIN) / most(grows * b->radius, 1e-30f);
+    v->per_unit = (0.5f * (float)side - MARGIN) / max_of(grows * b->radius, 1e-30f);
     for (int32_t i = 0; i < side * side; ++i) {
         v->key[i] = -FLT_MAX;
     }
@@ -210,8 +210,8 @@ int mix_block_look(mix_block_view *v, const mix_block *b, lmb_vec3 to, int is_ne
     v->low = FLT_MAX;
     v->high = -FLT_MAX;
     for (int32_t i = 0; i < side * side; ++i) {
-        v->low = v->key[i] > -FLT_MAX ? least(v->low, v->key[i]) : v->low;
-        v->high = most(v->high, v->key[i]);
+        v->low = v->key[i] > -FLT_MAX ? min_of(v->low, v->key[i]) : v->low;
+        v->high = max_of(v->high, v->key[i]);
     }
     sum_up(v);
     return 1;
@@ -223,7 +223,8 @@ int mix_block_look(mix_block_view *v, const mix_block *b, lmb_vec3 to, int is_ne
 static float summed(const mix_block_view *v, float x, float y)
 {
     const int32_t n = v->side + 1;
-    const float side = (float)v->side, u = least(most(x, 0.0f), side - 1e-3f), w = least(most(y, 0.0f), side - 1e-3f);
+    const float side = (float)v->side, u = min_of(max_of(x, 0.0f), side - 1e-3f),
+                w = min_of(max_of(y, 0.0f), side - 1e-3f);
     const int32_t i = (int32_t)u, k = (int32_t)w;
     const float s = u - (float)i, t = w - (float)k, *at = v->sum + k * n + i;
     const float above = at[0] + s * (at[1] - at[0]), below = at[n] + s * (at[n + 1] - at[n]);
@@ -233,14 +234,14 @@ static float summed(const mix_block_view *v, float x, float y)
 float mix_block_soft(const mix_block_view *v, lmb_vec3 p, float spread)
 {
     const lmb_vec3 at = project(v, p);
-    const float far = most(0.5f * (v->low + v->high) - at.z, 0.0f), half = most(far * spread * v->per_unit, 0.5f),
+    const float far = max_of(0.5f * (v->low + v->high) - at.z, 0.0f), half = max_of(far * spread * v->per_unit, 0.5f),
                 side = (float)v->side;
     if (at.z > v->high || at.x + half <= 0.0f || at.y + half <= 0.0f || at.x - half >= side || at.y - half >= side) {
         return 0.0f;
     }
     const float covered = summed(v, at.x + half, at.y + half) - summed(v, at.x - half, at.y + half) -
                           summed(v, at.x + half, at.y - half) + summed(v, at.x - half, at.y - half);
-    return least(most(covered / (4.0f * half * half), 0.0f), 1.0f);
+    return min_of(max_of(covered / (4.0f * half * half), 0.0f), 1.0f);
 }
 
 float mix_block_hard(const mix_block_view *v, lmb_vec3 p, float bias)

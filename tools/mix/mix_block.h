@@ -9,11 +9,11 @@
 
 enum { MIX_BLOCK_WAYS = 48 /* directions of the environment */ };
 
-/* The object as seen from a direction or, if `is_near`, from a lamp. */
+/* The object as seen from a direction or, if `is_near`, from a point light. */
 typedef struct mix_block_view {
     lmb_vec3 x, y, to; /* unit; `to`: towards the light */
     lmb_vec3 middle;   /* of the object */
-    float away;        /* of a lamp, from the middle, in mesh units */
+    float away;        /* of a point light, from the middle, in mesh units */
     int is_near;
     float per_unit; /* texels */
     int32_t side;
@@ -37,8 +37,8 @@ typedef struct mix_block {
 int mix_block_make(mix_block *out, const lmb_scene *scene);
 void mix_block_free(mix_block *b);
 
-/* mix_block_bytes: memory of a view's arrays. mix_block_look: draws a view; `to` is a direction, or the place of a
- * lamp if is_near. Returns 0 if the lamp is inside the object's sphere: it has no shadow. */
+/* mix_block_bytes: memory of a view's arrays. mix_block_look: draws a view; `to` is a direction, or the position
+ * of a light if is_near. Returns 0 if the point light is inside the object's sphere: it has no shadow. */
 size_t mix_block_bytes(int32_t side);
 int mix_block_look(mix_block_view *out, const mix_block *b, lmb_vec3 to, int is_near, int32_t side, void *memory);
 

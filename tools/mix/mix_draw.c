@@ -315,8 +315,8 @@ int mix_draw(mix_job *j, report *r)
 {
     rows all;
     mix_lights_begin(j);
-    if (!mix_lobes_take(j, r) || !mix_labels_take(j, r) || !mix_again_take(j, r) || !mix_carry_take(j, r) || !find_front(j, r) ||
-        !take_rows(&all, j, r)) {
+    if (!mix_lobes_take(j, r) || !mix_labels_take(j, r) || !mix_again_take(j, r) || !mix_carry_take(j, r) ||
+        !find_front(j, r) || !take_rows(&all, j, r)) {
         return 0;
     }
     mix_run_rows(j, all.threads, (j->picture.height + LMB_TILE - 1) / LMB_TILE, draw_row, &all);

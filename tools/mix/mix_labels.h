@@ -35,7 +35,8 @@ void mix_labels_cover(const mix_job *j, const lmb_tile *real, const lmb_radiance
 void mix_labels_grain(lmb_radiance *inout, const mix_job *j, const lmb_tile *real,
                       const float covered[LMB_TILE_PIXELS]);
 
-/* mix_labels_write: writes PREFIX.mask.png, .depth.pfm, .normal.pfm, .object.png and .pose.json. Returns 1, or 0 with `r` set. */
+/* mix_labels_write: writes PREFIX.mask.png, .depth.pfm, .normal.pfm, .object.png and .pose.json. Returns 1, or 0 with
+ * `r` set. */
 int mix_labels_write(const mix_job *j, report *r);
 
 #endif

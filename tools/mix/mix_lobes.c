@@ -106,8 +106,8 @@ static uint64_t plastics_of(const lmb_glossy *lobes)
 {
     uint64_t out = 0;
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        const float most = fmaxf(lobes->specular[0][k], fmaxf(lobes->specular[1][k], lobes->specular[2][k]));
-        out |= (uint64_t)((lobes->pixels >> k & 1) != 0 && most <= MATT) << k;
+        const float reflectance = fmaxf(lobes->specular[0][k], fmaxf(lobes->specular[1][k], lobes->specular[2][k]));
+        out |= (uint64_t)((lobes->pixels >> k & 1) != 0 && reflectance <= MATT) << k;
     }
     return out;
 }

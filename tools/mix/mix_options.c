@@ -74,9 +74,9 @@ static const option_row photo_rows[] = {
 #endif
 #if !defined(OPTIONS_WITHOUT_HELP)
     {.name = "--missing-depth", .kind = OPTION_WORD, AT(source.may_lack_depth), .words = missing,
-     .help = HELP("of frames without a depth file, or TUM photos without a depth within 0.02 s. skip: they are left out "
-             "(default); estimate: their depth is what earlier frames and the planes in them show from the new pose; "
-             "the first frame must have depth")},
+     .help = HELP("of frames without a depth file, or TUM photos without a depth within 0.02 s. skip: they are left "
+             "out (default); estimate: their depth is what earlier frames and the planes in them show from the new "
+             "pose; the first frame must have depth")},
 #endif
     {.name = "--photo", .value = "FILE", .kind = OPTION_TEXT, AT(source.photo), .file = OPTION_READS,
      .help = HELP(".png .jpg .pfm")},
@@ -168,9 +168,9 @@ static const option_row output_rows[] = {
     {.name = "--labels", .value = "PREFIX", .kind = OPTION_TEXT, AT(labels),
      .help = HELP("also writes PREFIX.mask.png: white where the object is visible, and 254, 253 ... for more objects; "
              "PREFIX.depth.pfm: depth, m; PREFIX.normal.pfm: normals, x right, y up, z towards the camera; "
-             "PREFIX.object.png: the object without the photo, with alpha; PREFIX.pose.json: the camera, and transforms "
-             "from the mesh to the camera, as camera_to_world, and to the world. --placements adds each OUT's name "
-             "without ending to PREFIX, for example labels/")},
+             "PREFIX.object.png: the object without the photo, with alpha; PREFIX.pose.json: the camera, and "
+             "transforms from the mesh to the camera, as camera_to_world, and to the world. --placements adds each "
+             "OUT's name without ending to PREFIX, for example labels/")},
     {.name = "--match-grain", .kind = OPTION_FLAG, AT(match_grain),
      .help = HELP("adds noise like the photo's to the object, by brightness and colour")},
 #endif
@@ -237,8 +237,8 @@ static int complete_placements(const mix_options *o, report *r)
 {
     if (o->object != NULL || o->out != NULL || o->at != MIX_AT_CENTRE || o->on != MIX_ON_ANY || o->turn_deg != 0.0f ||
         o->scale > 0.0f || o->fit) {
-        return report_fail(r, "--placements: its lines have object, place, turn, size and output; leave --object, --at, "
-                              "--on, --turn, --scale, --fit and -o out");
+        return report_fail(r, "--placements: its lines have object, place, turn, size and output; leave --object, "
+                              "--at, --on, --turn, --scale, --fit and -o out");
     }
     if (o->frames != NULL || o->stats != NULL || o->show != MIX_FINAL || o->specular > 0.0f) {
         return report_fail(r, "--placements: leave --frames, --stats, --show and --roughness out");

@@ -341,7 +341,8 @@ static int load_meshes(placements *p, report *r)
 
 /* --- places ------------------------------------------------------------------------------------------------------- */
 
-/* Moves the foot onto the surface measured there. The plane stays for other placements; mix_swift.c moves its pixels. */
+/* Moves the foot onto the surface measured there. The plane stays for other placements; mix_swift.c moves its
+ * pixels. */
 static float touch(mix_job *j, report *r)
 {
     float lift = 0.0f;

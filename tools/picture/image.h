@@ -31,8 +31,8 @@ int png_decode(bitmap *out, const uint8_t *data, size_t size, const char *name, 
 /* png_decode_16: only a grey PNG of 16 bits: the high byte as red, the low one as green. */
 int png_decode_16(bitmap *out, const uint8_t *data, size_t size, const char *name, report *r);
 /* png_encode: 8-bit RGB from rows of RGB bytes, deflate-compressed with adaptive filters. Allocates *out.
- * png_encode_alpha: RGBA, colours not multiplied by alpha. png_encode_quick: RGB in a third of the time; a file is a few
- * per cent larger. */
+ * png_encode_alpha: RGBA, colours not multiplied by alpha. png_encode_quick: RGB in a third of the time; a file is a
+ * few per cent larger. */
 int png_encode(file_bytes *out, const uint8_t *rgb, int32_t width, int32_t height, report *r);
 int png_encode_quick(file_bytes *out, const uint8_t *rgb, int32_t width, int32_t height, report *r);
 int png_encode_alpha(file_bytes *out, const uint8_t *rgba, int32_t width, int32_t height, report *r);

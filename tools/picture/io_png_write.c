@@ -25,7 +25,8 @@ static uint64_t filter_row(uint8_t *out, const uint8_t *row, const uint8_t *abov
     return sum;
 }
 
-/* All rows, each after the number of a filter, the first of which is `first`. `trial` holds one row; `zeros` is the row above the first. */
+/* All rows, each after the number of a filter; the first one tried is `first`. `trial` holds one row; `zeros` is the
+ * row above the first. */
 static void filter_rows(uint8_t *out, const uint8_t *rgb, size_t n, size_t pixel, int32_t height, uint8_t *trial,
                         const uint8_t *zeros, int first)
 {
@@ -73,7 +74,8 @@ static uint8_t *assemble(size_t *out_size, const uint8_t *packed, size_t n, int3
     return data;
 }
 
-static int encode(file_bytes *out, const uint8_t *pixels, int32_t width, int32_t height, int alpha, int quick, report *r)
+static int encode(file_bytes *out, const uint8_t *pixels, int32_t width, int32_t height, int alpha, int quick,
+                  report *r)
 {
     const size_t pixel = alpha ? 4 : 3;
     uint8_t *rows, *packed;

@@ -84,8 +84,9 @@ int place_list_read(place_list *out, const char *path, report *r)
     }
     out->place = malloc(MAX * sizeof *out->place);
     out->world = calloc(MAX, sizeof *out->world);
-    const int ok = out->place != NULL && out->world != NULL ? read_places(out, (const char *)file.data, file.size, path, r)
-                                      : report_fail(r, "%s: out of memory", path);
+    const int has_room = out->place != NULL && out->world != NULL;
+    const int ok = has_room ? read_places(out, (const char *)file.data, file.size, path, r)
+                            : report_fail(r, "%s: out of memory", path);
     file_free(&file);
     return ok;
 }
