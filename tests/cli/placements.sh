@@ -34,6 +34,13 @@ tail -c 288 set/photo.pfm >rows.photo
 tail -c 288 set/out/near.pfm >rows.near
 check "far from a small object the photo stays" cmp rows.photo rows.near
 check "a size changes the picture" differ set/out/near.pfm set/out/far.pfm
+# An object in the world's coordinates has the same pixels as at --at world.
+printf 'v -0.3 -0.2 -1.8\nv 0.3 -0.2 -1.8\nv 0 0.3 -1.8\nf 1 2 3\n' >set/flat.obj
+mkdir -p lab_out
+list 'out/world.pfm flat.obj world\n'
+status 0 mix $seen --light none --placements set/list.txt --labels lab_ -q
+status 0 mix $seen --light none --object set/flat.obj --at world --voxels 4 --labels one -q -o one.pfm
+check "world: the object is where the mesh has it" cmp lab_out/world.depth.pfm one.depth.pfm
 # The shadow of a list's object lies where mix --object has it: both darken the wall by about the same.
 list 'out/sun.pfm tent.obj 8,12\n'
 status 0 mix $seen $sun --placements set/list.txt -q
@@ -49,6 +56,7 @@ line 1 'OUT is no name ending in' ' - tent.obj 8,12\n'
 line 1 'PLACE is no X,Y, any' 'out/x.png tent.obj ceiling\n'
 line 1 'PLACE is no X,Y, any' 'out/x.png tent.obj nan,3\n'
 line 1 'PLACE 24,3: the photo has 24 x 24 pixels' 'out/x.png tent.obj 24,3\n'
+line 1 'PLACE world has' 'out/x.png tent.obj world 30\n'
 line 1 'TURN is no number' 'out/x.png tent.obj 8,12 left\n'
 line 1 'SIZE is no number' 'out/x.png tent.obj 8,12 0 0\n'
 line 1 'SIZE is no number' 'out/x.png tent.obj 8,12 0 1e30\n'

@@ -119,12 +119,13 @@ static const option_row object_rows[] = {
              "normal")},
 #if !defined(OPTIONS_WITHOUT_HELP)
     {.name = "--placements", .value = "LIST", .kind = OPTION_TEXT, AT(placements), .file = OPTION_READS,
-     .help = HELP("many pictures of one photo, instead of --object and -o. LIST is a text file with a line per object: "
-             "OUT MESH PLACE [TURN [SIZE]], separated by blanks. Names are relative to LIST; quote a name with "
-             "blanks: \"my vase.glb\". PLACE: X,Y as for --at, or floor, table, wall or any as for --on. TURN: degrees "
-             "(default 0). SIZE: metres of the longest side, fit, or - for the mesh's own (default). Successive lines "
-             "with one OUT put up to 16 objects into one picture. A line that begins with # is a comment. Light is "
-             "simpler than for --object: an object reflects light once, in its mean colour, and does not glow")},
+     .help = HELP("many pictures of one photo, instead of --object and -o. LIST is a text file with a line per "
+             "object: OUT MESH PLACE [TURN [SIZE]], separated by blanks. Names are relative to LIST; quote a name "
+             "with blanks: \"my vase.glb\". PLACE: X,Y or world as for --at, or floor, table, wall or any as for "
+             "--on. TURN: degrees (default 0). SIZE: metres of the longest side, fit, or - for the mesh's own "
+             "(default). Successive lines with one OUT put up to 16 objects into one picture. A line that begins "
+             "with # is a comment. Light is simpler than for --object: an object reflects light once, in its mean "
+             "colour, and does not glow")},
 #endif
     {.kind = OPTION_END},
 };

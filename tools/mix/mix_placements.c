@@ -114,6 +114,10 @@ static int parse_place(list_row *row, const char *word)
     if (option_word(word, ons, values, &row->on)) {
         return 1;
     }
+    if (strcmp(word, "world") == 0) {
+        row->at = MIX_AT_WORLD;
+        return 1;
+    }
     row->at = MIX_AT_PIXEL;
     return option_floats(&word, row->px, 2) && *word == '\0';
 }
@@ -142,13 +146,16 @@ static int set_row(placements *p, list_row *row, char *const word[WORDS], report
         return fail_row(p, row, r, "OUT is no name ending in .png, .ppm, .pfm or .hdr");
     }
     if (!parse_place(row, word[2])) {
-        return fail_row(p, row, r, "PLACE is no X,Y, any, floor, table or wall");
+        return fail_row(p, row, r, "PLACE is no X,Y, any, floor, table, wall or world");
     }
     if (word[3] != NULL && !option_number(word[3], -3600.0f, 3600.0f, &row->turn)) {
         return fail_row(p, row, r, "TURN is no number of degrees, -3600 .. 3600");
     }
     if (word[3] != NULL && word[4] != NULL && !parse_size(row, word[4])) {
         return fail_row(p, row, r, "SIZE is no number of metres, 0.000001 .. 1000000, fit or -");
+    }
+    if (row->at == MIX_AT_WORLD && (row->turn != 0.0f || row->size != 0.0f)) {
+        return fail_row(p, row, r, "PLACE world has the mesh's own turn and size");
     }
     const lmb_pinhole *c = &p->j->frame.camera;
     if (row->at == MIX_AT_PIXEL &&
@@ -357,6 +364,24 @@ static float touch(mix_job *j, report *r)
     return lift;
 }
 
+/* An object in the world of the poses: finds its foot, in camera space, and the plane under it if there is one. */
+static void put_in_world(mix_job *one)
+{
+    const lmb_vec3 low = one->object.scene.bounds_min, high = one->object.scene.bounds_max,
+                   foot = {0.5f * (low.x + high.x), low.y, 0.5f * (low.z + high.z)}, up = {0, 1, 0};
+    const lmb_mat4 camera = mix_camera_of(one);
+    const lmb_vec3 n = mix_turn(&camera, up);
+    one->anchor = mix_move(&camera, foot);
+    one->scale = 1.0f;
+    for (int32_t i = 0; i < one->planes.count && one->floor < 0; ++i) {
+        const lmb_flat *f = &one->planes.plane[i];
+        const float off = f->normal.x * one->anchor.x + f->normal.y * one->anchor.y + f->normal.z * one->anchor.z +
+                          f->distance;
+        const int faces = f->normal.x * n.x + f->normal.y * n.y + f->normal.z * n.z > 0.985f;
+        one->floor = faces && fabsf(off) < MAX_BEND ? i : -1;
+    }
+}
+
 static int put(mix_spot *out, const placements *p, const list_row *row, mix_job *one, report *r)
 {
     const mix_job *j = p->j;
@@ -376,13 +401,16 @@ static int put(mix_spot *out, const placements *p, const list_row *row, mix_job 
     one->anchor = (lmb_vec3){0, 0, 0};
     if (row->at == MIX_AT_CENTRE && one->planes.count == 0) {
         mix_fail_depth(one, &own);
-    } else if (mix_stand(one, &own) && !(one->anchor.z < 0.0f)) {
+    } else if (mix_stand(one, &own) && row->at != MIX_AT_WORLD && !(one->anchor.z < 0.0f)) {
         mix_fail_at(one, &own);
     }
     if (own.text[0] != '\0') {
         return report_fail(r, "%s: line %d: %s", p->path, (int)row->line, own.text);
     }
-    out->lift = touch(one, r);
+    if (row->at == MIX_AT_WORLD) {
+        put_in_world(one);
+    }
+    out->lift = row->at == MIX_AT_WORLD ? 0.0f : touch(one, r);
     while (one->block_count > blocks) { /* mix_gap's */
         free(one->blocks[--one->block_count].at);
     }
