@@ -8,7 +8,6 @@
 #include "../common/text_buffer.h"
 #include "../picture/picture.h"
 #include "mix_grain.h"
-#include "mix_run.h"
 #include "mix_turn.h"
 
 enum { PATH_CAP = 4096 };
@@ -141,7 +140,7 @@ static int write_mask(const mix_job *j, report *r)
 }
 
 /* The object without the photo, with alpha. */
-static int write_object(const mix_job *j, report *r)
+static int write_object(const mix_job *j, float exposure_ev, report *r)
 {
     char path[PATH_CAP];
     file_bytes file = {NULL, 0};
@@ -149,7 +148,7 @@ static int write_object(const mix_job *j, report *r)
         .width = j->frame.light.width, .height = j->frame.light.height, .channels = 3, .pixels = j->labels->rgb};
     const int ok = (snprintf(path, sizeof path, "%s.object.png", j->o.labels) < PATH_CAP ||
                     report_fail(r, "--labels: the name is too long")) &&
-                   picture_encode_alpha(&file, &p, j->labels->covered, mix_exposure(j), PICTURE_CLIPPED, r) &&
+                   picture_encode_alpha(&file, &p, j->labels->covered, exposure_ev, PICTURE_CLIPPED, r) &&
                    file_write(path, file.data, file.size, r);
     file_free(&file);
     return ok;
@@ -220,9 +219,9 @@ static int write_pose(const mix_job *j, report *r)
     return ok;
 }
 
-int mix_labels_write(const mix_job *j, report *r)
+int mix_labels_write(const mix_job *j, float exposure_ev, report *r)
 {
     return j->labels == NULL ||
            (write_mask(j, r) && write_picture(j, ".depth.pfm", j->labels->depth, 1, r) &&
-            write_picture(j, ".normal.pfm", j->labels->normal, 3, r) && write_object(j, r) && write_pose(j, r));
+            write_picture(j, ".normal.pfm", j->labels->normal, 3, r) && write_object(j, exposure_ev, r) && write_pose(j, r));
 }

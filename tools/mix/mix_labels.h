@@ -37,6 +37,6 @@ void mix_labels_grain(lmb_radiance *inout, const mix_job *j, const lmb_tile *rea
 
 /* mix_labels_write: writes PREFIX.mask.png, .depth.pfm, .normal.pfm, .object.png and .pose.json. Returns 1, or 0 with
  * `r` set. */
-int mix_labels_write(const mix_job *j, report *r);
+int mix_labels_write(const mix_job *j, float exposure_ev, report *r);
 
 #endif

@@ -19,6 +19,7 @@
 enum { SUN_SIDE = 96, GRID = 24 /* cells of ground about the foot, a side */, SAMPLES = 16 /* maximum */ };
 
 #define EACH   (4.0f * PI / (float)MIX_BLOCK_WAYS) /* solid angle of a direction */
+#define CORNER 0.42f                               /* tangent of the angle to a corner of that cone, which is square */
 #define SPREAD 0.29f                               /* tangent of half the cone of one of MIX_BLOCK_WAYS directions */
 #define AROUND 3.0f                                /* the ground's cells reach this far from the middle, in radii */
 #define LEAST  0.004f                              /* share of the light: an object that blocks less is too far away */
@@ -49,6 +50,10 @@ typedef struct placed {
     lmb_vec3 to[MIX_BLOCK_WAYS];                           /* in mesh space */
     mix_block_view sun[MIX_SWIFT_LIGHTS];
     uint8_t has_sun[MIX_SWIFT_LIGHTS];
+    lmb_vec3 suns;    /* middle of all suns' directions, mesh space */
+    float suns_apart; /* tangent of the largest angle from it; under 0: there is another light */
+    lmb_vec3 last_normal;
+    float last_all[3]; /* irradiance of the environment on it */
     float spread[MIX_SWIFT_LIGHTS];
     float ground[GRID * GRID][3]; /* share of its light that is left */
     void *memory;
@@ -79,8 +84,8 @@ struct mix_swift_desk {
     lmb_vec3 last_normal;
     float last_around[3];                                 /* irradiance of the environment on it */
     lmb_vec3 at[LMB_TILE_PIXELS], faces[LMB_TILE_PIXELS]; /* of the light that samples of a pixel share */
-    uint64_t known;
-    mix_job job; /* for labels */
+    uint64_t known, blocks;                               /* blocks: lights that may be blocked in the tile */
+    mix_job job;                                          /* for labels */
     struct mix_labels labels;
 };
 
@@ -203,27 +208,41 @@ static lmb_mat4 back_of(const lmb_mat4 *m)
     return out;
 }
 
-/* Environment light on a surface, in mesh space: in all, and the part that the object blocks, less what the object
- * reflects instead. */
-static void block_env(float all[3], float blocked[3], const placed *o, lmb_vec3 p, lmb_vec3 n)
+/* Environment light on a surface, in mesh space, without the object. Pixels of a plane share one normal. */
+static void whole_env(float all[3], placed *o, lmb_vec3 n)
 {
-    for (int c = 0; c < 3; ++c) {
-        all[c] = blocked[c] = 0.0f;
+    const lmb_vec3 turned = plus(n, o->last_normal, -1.0f);
+    if (dot(turned, turned) > 1e-10f) {
+        float sum[3] = {0, 0, 0};
+        for (int32_t i = 0; i < MIX_BLOCK_WAYS; ++i) {
+            const float cosine = fmaxf(dot(n, o->to[i]), 0.0f) * EACH;
+            for (int c = 0; c < 3; ++c) {
+                sum[c] += cosine * o->way[i][c];
+            }
+        }
+        memcpy(o->last_all, sum, sizeof sum);
+        o->last_normal = n;
     }
+    memcpy(all, o->last_all, sizeof o->last_all);
+}
+
+/* The same, and the part that the object blocks, less what the object reflects instead. */
+static void block_env(float all[3], float blocked[3], placed *o, lmb_vec3 p, lmb_vec3 n)
+{
+    const lmb_vec3 off = plus(o->block->middle, p, -1.0f);
+    const float far2 = dot(off, off), reach = 1.05f * o->block->radius + CORNER * sqrtf(far2),
+                least = far2 - reach * reach; /* of the squared way along a direction whose cone may meet the object */
+    whole_env(all, o, n);
+    blocked[0] = blocked[1] = blocked[2] = 0.0f;
     for (int32_t i = 0; i < MIX_BLOCK_WAYS; ++i) {
-        const float cosine = dot(n, o->to[i]);
-        if (!(cosine > 0.0f)) {
+        const float cosine = dot(n, o->to[i]) * EACH, along = dot(off, o->to[i]);
+        if (!(cosine > 0.0f) || along < -o->block->radius || along * along < least) {
             continue;
         }
         const float covers = mix_block_soft(&o->block->way[i], p, SPREAD);
         for (int c = 0; c < 3; ++c) {
-            all[c] += cosine * o->way[i][c];
             blocked[c] += cosine * covers * (o->way[i][c] - o->back[i][c]);
         }
-    }
-    for (int c = 0; c < 3; ++c) {
-        all[c] *= EACH;
-        blocked[c] *= EACH;
     }
 }
 
@@ -301,6 +320,21 @@ static float spread_of(const mix_job *j, int32_t light, lmb_vec3 at)
     return 0.0f;
 }
 
+/* A cone about the directions of all suns, to find tiles that none of their shadows reaches. */
+static void group_suns(placed *o, const mix_job *j)
+{
+    lmb_vec3 sum = {0, 0, 0};
+    o->suns_apart = sun_count(j) > 0 ? 0.0f : -1.0f;
+    for (int32_t i = 0; i < sun_count(j); ++i) {
+        sum = plus(sum, o->sun[i].to, 1.0f);
+    }
+    o->suns = unit(sum);
+    for (int32_t i = 0; i < sun_count(j) && o->suns_apart >= 0.0f; ++i) {
+        const float cosine = dot(o->suns, o->sun[i].to), apart = sqrtf(fmaxf(1.0f - cosine * cosine, 0.0f)) / cosine;
+        o->suns_apart = o->sun[i].is_near || !(cosine > 0.1f) ? -1.0f : fmaxf(o->suns_apart, apart + o->spread[i]);
+    }
+}
+
 static void set_suns(placed *o, const mix_job *j)
 {
     const size_t bytes = mix_block_bytes(SUN_SIDE);
@@ -313,6 +347,7 @@ static void set_suns(placed *o, const mix_job *j)
             (uint8_t)mix_block_look(&o->sun[i], o->block, to, is_near, SUN_SIDE, (char *)o->memory + (size_t)i * bytes);
         o->spread[i] = spread_of(j, i, o->middle);
     }
+    group_suns(o, j);
 }
 
 static uint64_t lit_at(const mix_swift *s, lmb_vec3 p)
@@ -380,6 +415,7 @@ static void place(placed *o, const mix_swift *s, const mix_spot *spot)
     o->along = spot->hangs ? (lmb_vec3){0, 1, 0} : (lmb_vec3){0, 0, 1};
     o->normal = unit(mix_turn(&spot->placed, o->out));
     const lmb_scene *mesh = &s->things[spot->thing].object.scene;
+    o->last_normal = (lmb_vec3){0, 0, 0};
     o->foot = spot->hangs ? mesh->bounds_min.z : mesh->bounds_min.y;
     set_ways(o, s->j);
     set_suns(o, s->j);
@@ -397,6 +433,16 @@ static float share_of(const placed *o, lmb_vec3 at, lmb_vec3 normal, float wide)
     return share * share * faces;
 }
 
+/* Can a shadow of any sun reach a tile? */
+static int may_be_shaded(const placed *o, const mix_area *a)
+{
+    const lmb_vec3 d = plus(mix_move(&o->from_scene, a->at), o->block->middle, -1.0f);
+    const float to = dot(o->suns, d), wide = a->radius * o->per_metre,
+                reach = 1.05f * o->block->radius + wide + fmaxf(o->block->radius - to, 0.0f) * o->suns_apart;
+    const lmb_vec3 side = plus(d, o->suns, -to);
+    return o->suns_apart < 0.0f || (to - wide < o->block->radius && dot(side, side) < reach * reach);
+}
+
 static int may_shadow(const placed *o, const mix_area *a, int32_t light)
 {
     const mix_block_view *v = &o->sun[light];
@@ -408,20 +454,21 @@ static int may_shadow(const placed *o, const mix_area *a, int32_t light)
     return to - wide < o->block->radius && dot(side, side) < reach * reach;
 }
 
-static int affects(const mix_swift_desk *d, const mix_area *a)
+/* Also finds the lights that may be blocked. */
+static int affects(mix_swift_desk *d, const mix_area *a)
 {
+    int near = 0;
+    d->blocks = 0;
     for (int32_t i = 0; i < d->count && a->radius >= 0.0f; ++i) {
         const placed *o = &d->object[i];
-        if (share_of(o, a->at, a->normal, a->radius) > LEAST) {
-            return 1;
-        }
-        for (int32_t k = 0; k < sun_count(d->s->j); ++k) {
-            if ((a->lit >> k & 1) != 0 && o->has_sun[k] && may_shadow(o, a, k)) {
-                return 1;
-            }
+        near |= share_of(o, a->at, a->normal, a->radius) > LEAST;
+        const int is_shaded = a->lit != 0 && may_be_shaded(o, a);
+        for (int32_t k = 0; is_shaded && k < sun_count(d->s->j); ++k) {
+            const int blocks = (a->lit >> k & 1) != 0 && o->has_sun[k] && may_shadow(o, a, k);
+            d->blocks |= (uint64_t)blocks << k;
         }
     }
-    return 0;
+    return near || d->blocks != 0;
 }
 
 /* Moves a pixel of the object's plane onto the surface at the object's foot. */
@@ -445,7 +492,7 @@ static void find_left(mix_swift_desk *d, int k)
         d->left[c][k] = 1.0f;
     }
     for (int32_t i = 0; i < d->count; ++i) {
-        const placed *o = &d->object[i];
+        placed *o = &d->object[i];
         const lmb_vec3 p = lifted(d, o, k), there = mix_move(&o->from_scene, p);
         const float counts = fminf((share_of(o, p, n, 0.0f) - LEAST) / (MOST - LEAST), 1.0f);
         const int is_under = o->spot->plane >= 0 && dot(o->out, there) - o->foot < -UNDER * o->per_metre;
@@ -515,7 +562,7 @@ static void shade_real_pixel(mix_swift_desk *d, int k, uint64_t lit)
         if ((lit >> i & 1) == 0) {
             continue;
         }
-        for (int32_t m = 0; m < d->count; ++m) {
+        for (int32_t m = 0; m < d->count && (d->blocks >> i & 1) != 0; ++m) {
             open *= d->object[m].has_sun[i]
                         ? 1.0f - mix_block_soft(&d->object[m].sun[i], there[m], d->object[m].spread[i])
                         : 1.0f;
@@ -609,7 +656,7 @@ static void light_pixels(mix_swift_desk *d, uint64_t asked)
                unit(mix_turn(&d->object[own].from_scene, n)));
         for (int32_t i = 0; i < d->count; ++i) {
             float all[3], blocked[3];
-            const placed *o = &d->object[i];
+            placed *o = &d->object[i];
             if (i == own || share_of(o, p, n, 0.0f) < LEAST) {
                 continue;
             }
@@ -1004,7 +1051,7 @@ int mix_swift_draw(mix_swift_desk *d, const mix_swift *s, const mix_spot *spots,
         return 0;
     }
     draw_tiles(d);
-    return write_picture(d, out, r) && mix_labels_write(&d->job, r);
+    return write_picture(d, out, r) && mix_labels_write(&d->job, s->exposure_ev, r);
 }
 
 /* --- memory of a thread ------------------------------------------------------------------------------------------- */

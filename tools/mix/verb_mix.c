@@ -47,7 +47,7 @@ static int mix(mix_job *j, report *r)
     }
     mix_tell(j);
     mix_tell_times(j);
-    return picture_write(j->o.out, &j->picture, mix_exposure(j), PICTURE_CLIPPED, r) && mix_labels_write(j, r) &&
+    return picture_write(j->o.out, &j->picture, mix_exposure(j), PICTURE_CLIPPED, r) && mix_labels_write(j, mix_exposure(j), r) &&
            (j->o.stats == NULL || write_stats(j, r));
 }
 

@@ -362,7 +362,7 @@ const lmb_irradiance *mix_soften(lmb_irradiance *room, const lmb_irradiance *wit
 /* --- mix_labels.h: no label pictures ----------------------------------------------------------------------------- */
 
 int mix_labels_take(mix_job *j, report *r) { return (void)j, (void)r, 1; }
-int mix_labels_write(const mix_job *j, report *r) { return (void)j, (void)r, 1; }
+int mix_labels_write(const mix_job *j, float ev, report *r) { return (void)j, (void)ev, (void)r, 1; }
 void mix_labels_sample(const mix_job *j, const lmb_tile *real, const lmb_tile *object, uint64_t shown)
 {
     (void)j, (void)real, (void)object, (void)shown;
