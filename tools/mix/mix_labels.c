@@ -221,7 +221,8 @@ static int write_pose(const mix_job *j, report *r)
 
 int mix_labels_write(const mix_job *j, float exposure_ev, report *r)
 {
-    return j->labels == NULL ||
-           (write_mask(j, r) && write_picture(j, ".depth.pfm", j->labels->depth, 1, r) &&
-            write_picture(j, ".normal.pfm", j->labels->normal, 3, r) && write_object(j, exposure_ev, r) && write_pose(j, r));
+    return j->labels == NULL || (write_mask(j, r) && write_picture(j, ".depth.pfm", j->labels->depth, 1, r) &&
+                                 write_picture(j, ".normal.pfm", j->labels->normal, 3, r) &&
+                                 write_object(j, exposure_ev, r) &&
+            write_pose(j, r));
 }

@@ -230,13 +230,13 @@ static void whole_env(float all[3], placed *o, lmb_vec3 n)
 static void block_env(float all[3], float blocked[3], placed *o, lmb_vec3 p, lmb_vec3 n)
 {
     const lmb_vec3 off = plus(o->block->middle, p, -1.0f);
-    const float far2 = dot(off, off), reach = 1.05f * o->block->radius + CORNER * sqrtf(far2),
-                least = far2 - reach * reach; /* of the squared way along a direction whose cone may meet the object */
+    const float far2 = dot(off, off), reach = 1.05f * o->block->radius + CORNER * sqrtf(far2);
+    const float min_along2 = far2 - reach * reach; /* squared, along a direction whose cone may meet the object */
     whole_env(all, o, n);
     blocked[0] = blocked[1] = blocked[2] = 0.0f;
     for (int32_t i = 0; i < MIX_BLOCK_WAYS; ++i) {
         const float cosine = dot(n, o->to[i]) * EACH, along = dot(off, o->to[i]);
-        if (!(cosine > 0.0f) || along < -o->block->radius || along * along < least) {
+        if (!(cosine > 0.0f) || along < -o->block->radius || along * along < min_along2) {
             continue;
         }
         const float covers = mix_block_soft(&o->block->way[i], p, SPREAD);

@@ -47,8 +47,9 @@ static int mix(mix_job *j, report *r)
     }
     mix_tell(j);
     mix_tell_times(j);
-    return picture_write(j->o.out, &j->picture, mix_exposure(j), PICTURE_CLIPPED, r) && mix_labels_write(j, mix_exposure(j), r) &&
-           (j->o.stats == NULL || write_stats(j, r));
+    const float exposure_ev = mix_exposure(j);
+    return picture_write(j->o.out, &j->picture, exposure_ev, PICTURE_CLIPPED, r) &&
+           mix_labels_write(j, exposure_ev, r) && (j->o.stats == NULL || write_stats(j, r));
 }
 
 int verb_mix(int argc, char **argv)
