@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "../base/vec.h"
+#include "solver.h"
 #include "stages.h"
 #include "requires.h"
 #include "plan_model.h"
@@ -115,6 +116,19 @@ static double fresh_faces(const lmb_render *r)
     return (double)n;
 }
 
+/* Memory of the tree of single points. */
+static uint64_t live_memory(const lmb_frame *f)
+{
+#if LMB_LIVE
+    if (f->gather_step == LMB_GATHER_LIVE && f->live != NULL) {
+        const uint32_t lit = lmb_frame_map_faces(f->scene), faces = lit > 0 ? lit : 1;
+        return (uint64_t)lmb_live_bytes(faces, lmb_live_side(faces, f->shadow_map), f->elements.cap);
+    }
+#endif
+    (void)f;
+    return 0;
+}
+
 static void plan_points(planner *p, lmb_why none)
 {
     const lmb_frame *f = &p->r->frame;
@@ -129,6 +143,7 @@ static void plan_points(planner *p, lmb_why none)
     row->bytes = requires_cut(f) ? (uint64_t)lmb_tree_bytes(f->tree.face_cap, f->tree.size)
                                  : (uint64_t)f->points.cap * sizeof(lmb_point) + sizeof(lmb_groups) +
                                        (uint64_t)f->points.cell_cap * sizeof(uint32_t);
+    row->bytes += live_memory(f);
     row->op[LMB_OP_RESOLVED] = faces * side * side;
     row->op[LMB_OP_SUMMED] = faces * points;
     if (faces == 0.0) {

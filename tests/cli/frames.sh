@@ -239,4 +239,31 @@ mkdir -p frames/none
 status 1 mix --frames frames/none $tent -o bad%02d.png
 said "frames/none: a folder with neither frames.txt nor TUM's rgb.txt"
 
+# --missing-depth estimate: frames without depth take what earlier ones know, here the same wall from 1 m beside.
+mkdir -p gaps
+for i in 0 1 2; do cp photo.pfm gaps/g$i.color.pfm; done
+cp wall.pfm gaps/g0.depth.pfm && cp wall.pfm gaps/whole.depth.pfm && cp photo.pfm gaps/whole.color.pfm
+for i in 0 1 2 whole; do
+    printf '{"fx": 30, "fy": 30, "cx": 11.5, "cy": 11.5, "depth_unit_mm": 1000, "camera_to_world": [[1,0,0,%s],[0,1,0,0],[0,0,1,0],[0,0,0,1]]}' \
+        "$(case $i in 0) echo 0 ;; *) echo 0.2 ;; esac)" >gaps/g$i.json
+done
+mv gaps/gwhole.json gaps/whole.json
+printf 'g0\ng1\ng2\n' >gaps/frames.txt && printf 'g0\nwhole\nwhole\n' >gaps/whole.txt
+status 1 mix --frames gaps $tent -q -o gaps/none_%02d.pfm
+check "without depth a frame is left out" test -s gaps/none_00.pfm -a ! -e gaps/none_01.pfm
+status 0 mix --frames gaps --missing-depth estimate $tent --light none -o gaps/o_%02d.pfm
+said "frames without depth: 2, the first is 1; it is estimated from earlier frames and their planes"
+status 0 mix --frames gaps/whole.txt $tent --light none -q -o gaps/w_%02d.pfm
+check "the estimate is near the measured depth" sh -c '"$1" compare gaps/o_01.pfm gaps/w_01.pfm | awk "{ for (i = 1; i < NF; ++i) if (\$i == \"rmse\") exit !(\$(i + 1) < 0.02) }"' sh "$TOOL"
+check "no frame is left out" test -s gaps/o_02.pfm
+printf 'g1\ng0\n' >gaps/frames.txt
+status 1 mix --frames gaps --missing-depth estimate $tent -q -o gaps/late_%02d.pfm
+said "has no depth, and no frame before it has any"
+check "only the frames before the first depth are left out" test -s gaps/late_01.pfm
+printf '1 photo.pfm\n2 photo.pfm\n' >gaps/rgb.txt && cp photo.pfm wall.pfm gaps && printf '1 wall.pfm\n' >gaps/depth.txt
+printf '1 0 0 0 0 0 0 1\n2 0.2 0 0 0 0 0 1\n' >gaps/groundtruth.txt
+status 0 mix --frames gaps --missing-depth estimate --intrinsics 30,30,11.5,11.5 --depth-scale 1 $tent --light none -q -o gaps/t_%02d.pfm
+check "nor of TUM's" test -s gaps/t_01.pfm
+status 2 mix --missing-depth estimate $seen $tent -o bad.pfm
+
 finish

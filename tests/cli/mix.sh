@@ -136,4 +136,24 @@ status 2 mix $seen --labels lab -o mixed.png
 said "--labels is of an object in the photo"
 status 0 mix --help
 
+# A red plastic reflects white light at its surface, a rough red object does not.
+moving
+for rough in 0.2 1; do
+    sed "s/\"POSITION\":[45]}/&,\"material\":0/g; s/\"nodes\":\[/\"materials\":[{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.5,0,0,1],\"metallicFactor\":0,\"roughnessFactor\":$rough}}],&/" moving.gltf >"red$rough.gltf"
+    status 0 mix $seen --object "red$rough.gltf" --scale 0.1 --at 8,12 --voxels 4 --light none --show object -q -o "red$rough.pfm"
+    "$TOOL" info "red$rough.pfm" >"red$rough.txt"
+done
+check "a plastic reflects white light" sh -c 'grep -q "green min 0 *max [0-9.]*[1-9]" red0.2.txt'
+check "a rough object does not" grep -q "green min 0 *max 0 " red1.txt
+printf 'red.png red0.2.gltf 8,12 0 0.8\n' >red.txt
+status 0 mix $seen --light none --placements red.txt --labels lab_ -q
+"$TOOL" info lab_red.object.png >red_object.txt
+check "so does a plastic of a list" sh -c 'grep -q "green min 0 *max [1-9]" red_object.txt'
+
+# An object that glows needs no other light.
+printf 'newmtl glow\nKd 0 0 0\nKe 4 3 2\n' >glow.mtl
+{ printf 'mtllib glow.mtl\nusemtl glow\n'; cat tent.obj; } >glow.obj
+status 0 mix $seen --object glow.obj --scale 0.2 --at 8,12 --shadow-map 64 --voxels 4 --light none --show delta -q -o glow.pfm
+check "an object that glows lights the photo" sh -c '"$1" info "$2" | awk "\$1 == \"red\" { exit !(\$5 > 0.05) }"' sh "$TOOL" glow.pfm
+
 finish

@@ -29,6 +29,15 @@ status 0 plan $corner --budget ms=16 --budget rate=1e4
 check "so are 160 units" grep -q "no setting meets the budget; the nearest takes [0-9.e+]* x the work" out.txt
 status 0 plan --help
 check "plan --help has budgets and examples" sh -c 'grep -q -- "--budget KEY" "$1" && grep -q "lambent plan demo" "$1"' sh out.txt
+# Live light has a tree of its own beside that of the cuts, and its work is not predicted.
+kib() { sed -n 's/^first points  *[0-9.kMG-]*  *[0-9.]*  *\([0-9]*\)\..*/\1/p' out.txt; }
+status 0 plan demo --size 32x24 --threads 1 --gather full
+full=$(kib)
+check "cuts are planned as cuts" lacks "live light" out.txt
+status 0 plan demo --size 32x24 --threads 1 --gather live
+live=$(kib)
+check "a plan counts the memory of live light: $live KiB, not $full" test "$live" -gt "$full"
+check "a plan of live light says that it is planned as cuts" grep -q "^live light is planned as the cuts" out.txt
 status 2 plan
 status 2 plan demo -o plan.png
 status 2 plan demo --stats plan.json

@@ -249,4 +249,31 @@ said "give each object its place"
 status 2 $two --object white_box.obj --at 0,0,0 --object table.obj --at 3,0,1 --scale 1 --scale 2 --scale 3 -o bad.pfm
 status 2 relight --world demo --object demo --object demo --path path.txt -o bad.ppm
 
+# A world that changes along a path: each picture is that of its own world, and nothing of the one before stays.
+mkdir -p worlds
+{ printf 'PF\n1 6\n-1.0\n'; repeated 9 "$one"; repeated 9 "$half"; } >worlds/evening.pfm
+printf '0,0,0\n0.05,0,0 evening.pfm\n0.05,0,0\n0.05,0,0 ../white.pfm\n' >worlds/path.txt
+still="--object white_box.obj --f0 0.3 --roughness 0.3 --size 24x16 --eye 2,2,6 --target 0,1,0 -q"
+status 0 relight --world white.pfm $still --path worlds/path.txt -o changes_%02d.pfm
+status 0 relight --world white.pfm $still --at 0.05,0,0 -o day.pfm
+status 0 relight --world worlds/evening.pfm $still --at 0.05,0,0 -o evening.pfm
+check "the world changes along a path" cmp evening.pfm changes_01.pfm
+check "and stays" cmp evening.pfm changes_02.pfm
+check "and changes back" cmp day.pfm changes_03.pfm
+check "the worlds differ" differ day.pfm evening.pfm
+printf '0,0,0\n1,0,0 nowhere.pfm\n' >worlds/path.txt
+status 1 relight --world white.pfm $still --path worlds/path.txt -o bad_%02d.pfm
+said "worlds/nowhere.pfm: "
+printf '0,0,0\n1,0,0 path.txt\n' >worlds/path.txt
+status 1 relight --world white.pfm $still --path worlds/path.txt -o bad_%02d.pfm
+printf '0,0,0\n1,0,0 ../white.pfm\n' >worlds/path.txt
+status 1 relight --only-here --world white.pfm $still --path worlds/path.txt -o bad_%02d.pfm
+cp white.pfm white_00.pfm
+printf '0,0,0\n1,0,0 ../white_00.pfm\n' >worlds/path.txt
+status 2 relight --world white.pfm $still --path worlds/path.txt -o white_%02d.pfm
+check "a picture does not write over a world" cmp white.pfm white_00.pfm
+check "a missing world draws nothing" none bad_*.pfm
+status 2 relight --world white.pfm --stereo 0.06 --cube bad.pfm
+said "--stereo draws a picture for each eye"
+
 finish

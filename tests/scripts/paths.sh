@@ -1,7 +1,8 @@
 # paths.sh: checks that the command blocks in the documents work in a clean copy, one by one; B in the environment.
 #
 # A block is between ``` after a line `<!-- run: TEXT -->`, or `<!-- run: TEXT; needs COMMAND... -->`. Each block
-# runs with `sh -e`; every file that it names after -o must exist afterwards.
+# runs with `sh -e`; every file that it names after -o must exist afterwards,
+# with 00 for %02d.
 . tests/scripts/checks.sh
 
 case $B in /*) dir=$B/paths ;; *) dir=$PWD/$B/paths ;; esac
@@ -30,7 +31,7 @@ for block in "$dir"/*.sh; do
     what=$(sed -n '1s/^# //p' "$block")
     if missing=$(sh tests/scripts/tools.sh need $(sed -n '2s/^# //p' "$block") 2>&1); then
         check "$what" sh -c 'cd "$1" && env -i PATH="$PATH" HOME="$HOME" CC="$4" CFLAGS="$3" sh -e "$2"' sh "$dir/clone" "$block" "$flags" "$CC"
-        for out in $(tr -s ' \n' '\n\n' <"$block" | sed -n '/^-o$/{n;p;}'); do
+        for out in $(tr -s ' \n' '\n\n' <"$block" | sed -n '/^-o$/{n;s/%02d/00/;p;}'); do
             check "$what: $out is there" test -s "$dir/clone/$out"
         done
     else

@@ -100,6 +100,9 @@ void plan_print_table(const lmb_plan *p, const render_job *j, const budget_choic
     print_rows(p);
     printf("%-14s %9s %6s %10.1f\n\n", "all", short_count(work, p->work), "", (double)p->bytes / 1024.0);
     print_lights(p, j);
+    if (f->tree.texel != NULL && f->gather_step == LMB_GATHER_LIVE) {
+        printf("live light is planned as the cuts of all tiles, which is more work than it takes\n");
+    }
     if (c->rate > 0.0) {
         printf("about %.3g ms on this machine, by %.3g units a second\n", p->work / c->rate * 1e3, c->rate);
     }

@@ -213,13 +213,14 @@ static uint64_t put_object(drawing *d, mix_job *j, const lmb_tile *real, int is_
         mix_labels_sample(j, real, &d->object, shown);
         all |= shown;
     }
-    mix_labels_cover(j, real, d->covered);
     mix_again_object(&d->over, d->covered, j, real);
+    mix_labels_cover(j, real, &d->over, d->covered);
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         for (int c = 0; c < 3; ++c) {
             d->photo.rgb[c][k] = mix_over(d->bare.rgb[c][k], d->over.rgb[c][k], d->covered[k]);
         }
     }
+    mix_labels_grain(&d->photo, j, real, d->covered);
     return all;
 }
 
@@ -314,8 +315,8 @@ int mix_draw(mix_job *j, report *r)
 {
     rows all;
     mix_lights_begin(j);
-    if (!mix_labels_take(j, r) || !mix_again_take(j, r) || !mix_carry_take(j, r) || !find_front(j, r) ||
-        !take_rows(&all, j, r)) {
+    if (!mix_lobes_take(j, r) || !mix_labels_take(j, r) || !mix_again_take(j, r) || !mix_carry_take(j, r) ||
+        !find_front(j, r) || !take_rows(&all, j, r)) {
         return 0;
     }
     mix_run_rows(j, all.threads, (j->picture.height + LMB_TILE - 1) / LMB_TILE, draw_row, &all);

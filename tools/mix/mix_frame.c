@@ -246,10 +246,16 @@ static int read_all(mix_frame *f, mix_source s, report *r)
         s.photo = s.photo != NULL ? s.photo : photo;
         s.depth = s.depth != NULL ? s.depth : depth;
     }
-    if (!may_read(&s, s.photo, r) || !may_read(&s, s.depth, r)) {
+    report none = {""};
+    f->lacks_depth = s.may_lack_depth && (s.depth == NULL || !file_is_plain(s.depth, &none));
+    if (!may_read(&s, s.photo, r) || (!f->lacks_depth && !may_read(&s, s.depth, r)) || !read_photo(f, s.photo, r)) {
         return 0;
     }
-    return read_photo(f, s.photo, r) && read_depth(f, s.depth, s.depth_scale, r) && set_camera(f, &s, r);
+    if (f->lacks_depth) {
+        f->depth = calloc((size_t)f->photo.width * (size_t)f->photo.height, sizeof *f->depth);
+        return (f->depth != NULL || report_fail(r, "%s: out of memory", s.photo)) && set_camera(f, &s, r);
+    }
+    return read_depth(f, s.depth, s.depth_scale, r) && set_camera(f, &s, r);
 }
 
 int mix_frame_read(mix_frame *out, const mix_source *from, report *r)

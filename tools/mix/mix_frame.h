@@ -13,6 +13,7 @@ typedef struct mix_source {
     float depth_scale; /* metres per unit; 0: 0.001 for PNG, 1 for PFM, or the JSON's value */
     float intrinsics[4];
     int32_t has_intrinsics;
+    int32_t may_lack_depth; /* no depth file: all of it is not measured */
 } mix_source;
 
 /* Release it with mix_frame_free. */
@@ -20,6 +21,7 @@ typedef struct mix_frame {
     stored_picture photo; /* as stored */
     image light;          /* the photo as linear light, 3 channels */
     float *depth;         /* m, same size */
+    int lacks_depth;      /* there is no depth file */
     lmb_pinhole camera;
     int has_pose;
     double pose[16];      /* camera (x right, y down, z ahead) to world, row by row */

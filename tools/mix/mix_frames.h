@@ -54,7 +54,7 @@ typedef struct mix_kept {
 /* One frame of a list. */
 typedef struct mix_entry {
     char *prefix;                   /* as for --frame; NULL: the next two are used */
-    char *photo, *depth;
+    char *photo, *depth;            /* depth may be NULL: see may_lack_depth */
     int is_rooted;                  /* a name is an absolute path */
     double pose[16];
 } mix_entry;
@@ -63,6 +63,7 @@ typedef struct mix_list {
     mix_entry *entry;
     int32_t count, cap;
     char *folder; /* folder of the list, prefixed to all names; "" or ending with a slash */
+    int may_lack_depth;            /* input: TUM photos without a depth are frames, too */
     int32_t no_depth, no_pose, unread; /* of TUM's lists: photos without depth or pose; malformed lines */
 } mix_list;
 

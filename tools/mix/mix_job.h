@@ -9,6 +9,7 @@
 #include "mix_options.h"
 
 enum { MIX_BLOCKS = 128, MIX_IDLE = 4 /* jobs */, MIX_LIGHT_SAMPLES = 32 /* of a light with a size */,
+       MIX_LIGHT_FEW = 8 /* likewise, for placements from a list */,
        MIX_SUN_SAMPLES = 16 /* of a guessed sun */ };
 
 struct mix_kept;
@@ -104,6 +105,7 @@ typedef struct mix_job {
     int32_t light_count, lamp_count; /* the last lamp_count lights are the object's own and exist only with it */
     struct mix_sources *sources; /* the object's own light sources; NULL: none */
     const lmb_scene *bounces;  /* the scene, with lobes as if diffuse */
+    const lmb_scene *shiny;   /* the scene as drawn, also with lobes of plastics: mix_lobes.h */
     lmb_voxels voxels;   /* around the object; count 0: there are none */
     lmb_cones cones;
     lmb_cone_width glossy;
@@ -118,6 +120,8 @@ typedef struct mix_job {
     int is_settled;      /* the camera is static: pixels with unchanged depth keep the last result */
     mix_answer *answer;  /* of a sequence, by pixel; NULL: not kept */
     image picture;       /* linear */
+    struct mix_grain *grain;   /* noise for the object; NULL: none */
+    int is_shared;             /* the photo of a list of placements: lit without an object */
     struct mix_labels *labels; /* per-pixel labels of the object; NULL: not requested */
     double read_s, planes_s, place_s, light_s, build_s, voxels_s, draw_s; /* build_s: part of voxels_s */
     mix_memory blocks[MIX_BLOCKS];
@@ -209,6 +213,11 @@ int mix_show_voxels(mix_job *j, report *r);
 /* mix_run_rows: runs all rows of a picture, and the tasks aside. mix_aside_run: runs only those tasks. */
 void mix_aside_run(mix_aside *a, int threads);
 void mix_run_rows(const mix_job *j, int threads, int count, pool_job row, void *user);
+
+/* mix_gap: the measured depth at the object's foot minus the plane's, along the camera's axis: the median; NaN if none
+ * is measured. mix_object_to_scene: the object's place, from mesh to scene space. */
+float mix_gap(mix_job *j, report *r);
+lmb_mat4 mix_object_to_scene(mix_job *j);
 
 /* mix_image: black, 3 channels. */
 int mix_image(image *out, int32_t width, int32_t height, report *r);

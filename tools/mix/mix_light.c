@@ -172,7 +172,7 @@ static void add_light(mix_job *j, const lmb_light *light, float size, int32_t sa
 static void place_lights(mix_job *j)
 {
     for (int32_t i = 0; i < j->o.light_count; ++i) {
-        add_light(j, &j->o.lights[i], j->o.light_size[i], MIX_LIGHT_SAMPLES);
+        add_light(j, &j->o.lights[i], j->o.light_size[i], j->is_shared ? MIX_LIGHT_FEW : MIX_LIGHT_SAMPLES);
     }
 }
 
@@ -299,7 +299,7 @@ int mix_light(mix_job *j, report *r)
     }
     if (j->o.light_count > 0) {
         place_lights(j);
-    } else if (j->object_triangles > 0 && !j->o.no_light) {
+    } else if ((j->object_triangles > 0 || j->is_shared) && !j->o.no_light) {
         j->sun_size = mix_guess_sun(&j->sun, &j->softens, j);
         if (j->sun_size < 0.0f) {
             return report_fail(r, "out of memory");

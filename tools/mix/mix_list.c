@@ -201,17 +201,17 @@ static int join(mix_list *out, const stamped_list l[3], report *r)
 {
     for (int32_t i = 0; i < l[0].count; ++i) {
         const stamped *photo = &l[0].line[i], *depth = nearest(&l[1], photo->time), *pose = nearest(&l[2], photo->time);
-        if (depth == NULL || pose == NULL) {
-            out->no_depth += depth == NULL;
-            out->no_pose += depth != NULL;
+        if ((depth == NULL && !out->may_lack_depth) || pose == NULL) {
+            out->no_depth += depth == NULL && !out->may_lack_depth;
+            out->no_pose += depth != NULL || out->may_lack_depth;
             continue;
         }
         mix_entry *e = add(out, r);
         if (e == NULL || (e->photo = beside(out->folder, photo->name, r)) == NULL ||
-            (e->depth = beside(out->folder, depth->name, r)) == NULL) {
+            (depth != NULL && (e->depth = beside(out->folder, depth->name, r)) == NULL)) {
             return 0;
         }
-        e->is_rooted = is_rooted(photo->name) || is_rooted(depth->name);
+        e->is_rooted = is_rooted(photo->name) || (depth != NULL && is_rooted(depth->name));
         pose_of(e->pose, pose->value);
     }
     out->unread = l[0].unread + l[1].unread + l[2].unread;
@@ -349,7 +349,9 @@ static int read_list(mix_list *out, const char *path, const char *folder, const 
 int mix_list_read(mix_list *out, const char *path, report *r)
 {
     const size_t n = strlen(path);
+    const int may_lack_depth = out->may_lack_depth;
     memset(out, 0, sizeof *out);
+    out->may_lack_depth = may_lack_depth;
     char *folder = with(path, n > 0 && path[n - 1] == '/' ? "" : "/", r);
     char *tum = folder != NULL ? with(folder, "rgb.txt", r) : NULL;
     char *own = folder != NULL ? with(folder, "frames.txt", r) : NULL;

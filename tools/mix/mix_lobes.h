@@ -1,4 +1,4 @@
-/* mix_lobes.h: objects that reflect like metal. [M20] */
+/* mix_lobes.h: objects that reflect like metal, or have highlights like plastic. [M20] */
 #ifndef MIX_LOBES_H
 #define MIX_LOBES_H
 
@@ -7,6 +7,7 @@
 /* The memory that one tile's lobes are computed in. */
 typedef struct mix_lobes {
     lmb_glossy lobes;
+    uint64_t plastic; /* pixels of the lobes */
     mix_mirror mirror;
     float seen[3][LMB_TILE_PIXELS];
     lmb_irradiance one; /* of one light */
@@ -14,6 +15,12 @@ typedef struct mix_lobes {
 
 /* mix_lobes_read: sets up the object's materials, with glossy lobes for metals. */
 void mix_lobes_read(mix_job *j);
+
+/* mix_lobes_sheen: gives a material the lobe of a smooth non-metal, such as plastic, that the object has in its file.
+ * Returns whether it has one. mix_lobes_take: sets j->shiny, where such lobes reflect lights and the environment, but
+ * neither the photo nor light onto it. Returns 1, or 0 with `r` set. */
+int mix_lobes_sheen(lmb_material *inout, const model *object, uint32_t i);
+int mix_lobes_take(mix_job *j, report *r);
 
 /* mix_lobes_bounces: sets j->bounces, the scene that is used for bounced light. In it, metals reflect their light
  * diffusely. Light that they reflect from given lights is excluded (mix_sources.h). */

@@ -27,6 +27,9 @@ static int measure(mix_ready *n, const mix_kept *k, int is_kept, report *r)
     if (k->frames + is_kept > 0 && k->depth.has_pose != j->frame.has_pose) {
         return report_fail(r, j->frame.has_pose ? "has a pose, and those before it have none" : "has no pose");
     }
+    if (k->frames + is_kept == 0 && j->frame.lacks_depth) {
+        return report_fail(r, "has no depth, and no frame before it has any");
+    }
     lmb_pinhole_round(&j->frame.camera);
     mix_depth_free(&n->depth);
     if (!mix_depth_copy(&n->depth, &k->depth, r)) {

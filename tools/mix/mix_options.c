@@ -48,6 +48,9 @@ static int parse_roughness(const char *text, void *at)
 
 static const char *const cones[] = {"7", "19", "37", NULL};
 static const int32_t cone_values[] = {7, 19, 37};
+#if !defined(OPTIONS_WITHOUT_HELP)
+static const char *const missing[] = {"skip", "estimate", NULL};
+#endif
 static const char *const ons[] = {"floor", "table", "wall", NULL};
 static const int32_t on_values[] = {MIX_ON_FLOOR, MIX_ON_TABLE, MIX_ON_WALL};
 static const char *const shows[] = {"final", "delta", "planes", "voxels", "env", "object", NULL};
@@ -68,6 +71,12 @@ static const option_row photo_rows[] = {
              "again only if a twentieth of the surfaces around it is new or gone, or if the photo is that much "
              "brighter or darker. -o is a pattern, as frame_%04d.png. A frame that cannot be used is reported and "
              "left out; the exit status is then 1")},
+#endif
+#if !defined(OPTIONS_WITHOUT_HELP)
+    {.name = "--missing-depth", .kind = OPTION_WORD, AT(source.may_lack_depth), .words = missing,
+     .help = HELP("of frames without a depth file, or TUM photos without a depth within 0.02 s. skip: they are left "
+             "out (default); estimate: their depth is what earlier frames and the planes in them show from the new "
+             "pose; the first frame must have depth")},
 #endif
     {.name = "--photo", .value = "FILE", .kind = OPTION_TEXT, AT(source.photo), .file = OPTION_READS,
      .help = HELP(".png .jpg .pfm")},
@@ -108,6 +117,16 @@ static const option_row object_rows[] = {
     {.name = "--turn", .value = "DEG", .kind = OPTION_NUMBER, AT(turn_deg), .low = -3600, .high = 3600,
      .help = HELP("about the object's upright axis (default 0: +Z towards the viewer); on a wall, about the wall's "
              "normal")},
+#if !defined(OPTIONS_WITHOUT_HELP)
+    {.name = "--placements", .value = "LIST", .kind = OPTION_TEXT, AT(placements), .file = OPTION_READS,
+     .help = HELP("many pictures of one photo, instead of --object and -o. LIST is a text file with a line per "
+             "object: OUT MESH PLACE [TURN [SIZE]], separated by blanks. Names are relative to LIST; quote a name "
+             "with blanks: \"my vase.glb\". PLACE: X,Y or world as for --at, or floor, table, wall or any as for "
+             "--on. TURN: degrees (default 0). SIZE: metres of the longest side, fit, or - for the mesh's own "
+             "(default). Successive lines with one OUT put up to 16 objects into one picture. A line that begins "
+             "with # is a comment. Light is simpler than for --object: an object reflects light once, in its mean "
+             "colour, and does not glow")},
+#endif
     {.kind = OPTION_END},
 };
 
@@ -148,9 +167,13 @@ static const option_row output_rows[] = {
              "without the photo, before black")},
 #if !defined(OPTIONS_WITHOUT_HELP) /* the web page writes no files */
     {.name = "--labels", .value = "PREFIX", .kind = OPTION_TEXT, AT(labels),
-     .help = HELP("also writes PREFIX.mask.png: white where the object is visible; PREFIX.depth.pfm: depth, m; "
-             "PREFIX.normal.pfm: normals, x right, y up, z towards the camera; PREFIX.pose.json: transforms from "
-             "the mesh to the camera, as camera_to_world, and to the world")},
+     .help = HELP("also writes PREFIX.mask.png: white where the object is visible, and 254, 253 ... for more objects; "
+             "PREFIX.depth.pfm: depth, m; PREFIX.normal.pfm: normals, x right, y up, z towards the camera; "
+             "PREFIX.object.png: the object without the photo, with alpha; PREFIX.pose.json: the camera, and "
+             "transforms from the mesh to the camera, as camera_to_world, and to the world. --placements adds each "
+             "OUT's name without ending to PREFIX, for example labels/")},
+    {.name = "--match-grain", .kind = OPTION_FLAG, AT(match_grain),
+     .help = HELP("adds noise like the photo's to the object, by brightness and colour")},
 #endif
     {.name = "--samples", .kind = OPTION_WORD, AT(samples), .words = option_samples, .values = option_sample_values,
      .help = HELP("per pixel, of the object over the photo (default 4 for .png and .ppm, 1 for .pfm and .hdr)")},
@@ -174,7 +197,8 @@ const option_table mix_table = {
     .verb = "mix",
     .usage = HELP("mix --frame PREFIX --object MESH -o OUT [options]\n"
              "mix --photo P --depth D --intrinsics FX,FY,CX,CY --object MESH -o OUT [options]\n"
-             "mix --frames DIR|LIST --object MESH -o frame_%04d.png [options]"),
+             "mix --frames DIR|LIST --object MESH -o frame_%04d.png [options]\n"
+             "mix --frame PREFIX --placements LIST [options]"),
     .about = HELP("Puts a virtual object into one photo with depth: finds the planes, stands the object on one, "
              "lights it by the environment, and adds its shadow, colour bleeding and reflection to the photo. Units "
              "are metres."),
@@ -199,8 +223,8 @@ static int complete_frames(const mix_options *o, report *r)
     if (o->out == NULL || frame_digits(o->out) == 0) {
         return report_fail(r, "--frames: -o is a name with one %%0Nd, as frame_%%04d.png");
     }
-    if (o->labels != NULL) {
-        return report_fail(r, "--frames: --labels is of one photo");
+    if (o->labels != NULL || o->placements != NULL) {
+        return report_fail(r, "--frames: --labels and --placements are of one photo");
     }
     if (o->stats != NULL) {
         return report_fail(r, "--frames: --stats is of one photo; -v says what each frame took");
@@ -208,6 +232,19 @@ static int complete_frames(const mix_options *o, report *r)
     return o->show != MIX_PLANES && o->show != MIX_ENV && o->show != MIX_VOXELS
                ? 1
                : report_fail(r, "--frames: --show planes, voxels and env are of one photo");
+}
+
+static int complete_placements(const mix_options *o, report *r)
+{
+    if (o->object != NULL || o->out != NULL || o->at != MIX_AT_CENTRE || o->on != MIX_ON_ANY || o->turn_deg != 0.0f ||
+        o->scale > 0.0f || o->fit) {
+        return report_fail(r, "--placements: its lines have object, place, turn, size and output; leave --object, "
+                              "--at, --on, --turn, --scale, --fit and -o out");
+    }
+    if (o->frames != NULL || o->stats != NULL || o->show != MIX_FINAL || o->specular > 0.0f) {
+        return report_fail(r, "--placements: leave --frames, --stats, --show and --roughness out");
+    }
+    return 1;
 }
 
 static int complete_photo(const mix_options *o, report *r)
@@ -221,18 +258,22 @@ static int complete_photo(const mix_options *o, report *r)
     if (o->source.frame == NULL && !o->source.has_intrinsics) {
         return report_fail(r, "no camera given; add --intrinsics FX,FY,CX,CY");
     }
-    return o->out != NULL || report_fail(r, "no output given; add -o FILE.png");
+    return o->placements != NULL ? complete_placements(o, r)
+                                 : o->out != NULL || report_fail(r, "no output given; add -o FILE.png");
 }
 
 static int complete(const mix_options *o, report *r)
 {
+    if (o->frames == NULL && o->source.may_lack_depth) {
+        return report_fail(r, "--missing-depth estimate needs earlier frames; add --frames");
+    }
     if (!(o->frames != NULL ? complete_frames(o, r) : complete_photo(o, r))) {
         return 0;
     }
     if (o->source.has_intrinsics && !mix_is_camera(o->source.intrinsics)) {
         return report_fail(r, "--intrinsics: focal lengths are over 0, and all four in pixels");
     }
-    if (o->labels != NULL && (o->object == NULL || o->show != MIX_FINAL)) {
+    if (o->labels != NULL && ((o->object == NULL && o->placements == NULL) || o->show != MIX_FINAL)) {
         return report_fail(r, "--labels is of an object in the photo; add --object MESH, and leave --show out");
     }
     if (o->object == NULL && (o->show == MIX_OBJECT || o->show == MIX_VOXELS)) {

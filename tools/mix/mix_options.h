@@ -24,6 +24,8 @@ enum { MIX_ON_ANY = 0, MIX_ON_FLOOR, MIX_ON_TABLE, MIX_ON_WALL };
 typedef struct mix_options {
     mix_source source;
     const char *frames; /* a list instead of `source`'s files */
+    const char *placements; /* a list of pictures instead of `object` and `out` */
+    int match_grain;
     const char *object, *world, *out, *stats, *labels;
     model_choice choice; /* choices for the file of the object */
     float scale;      /* m per unit of the mesh; 0: 1, or chosen if `fit` */

@@ -41,7 +41,7 @@ static const lmb_mat4 identity = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 
 
 /* The measured depth at the pixels of the object's foot minus the plane's, along the camera's axis: the median, so that
  * noise averages out. */
-static float gap(mix_job *j, report *r)
+float mix_gap(mix_job *j, report *r)
 {
     const lmb_pinhole *c = &j->frame.camera;
     const lmb_vec3 n = j->hangs ? j->planes.plane[j->floor].normal : j->up;
@@ -90,7 +90,7 @@ static lmb_mat4 hanging(const mix_job *j, float scale)
 }
 
 /* Puts the middle of the mesh's foot at the anchor; if it hangs, the middle of its back. */
-static lmb_mat4 object_to_scene(mix_job *j)
+lmb_mat4 mix_object_to_scene(mix_job *j)
 {
     if (j->o.at == MIX_AT_WORLD) {
         return j->from_world;
@@ -135,11 +135,11 @@ int mix_place(mix_job *j, report *r)
     }
     mix_lobes_read(j);
     for (int i = 0; i < 3 && j->floor >= 0; ++i) { /* most of the foot's pixels are nearer than the middle */
-        mix_touch(j, gap(j, r));
+        mix_touch(j, mix_gap(j, r));
     }
     j->facing = j->floor >= 0 ? j->planes.plane[j->floor].normal : j->up;
     mix_turn_scene(j);
-    j->gap_m = j->o.at == MIX_AT_WORLD ? NAN : gap(j, r);
-    j->placed = object_to_scene(j);
+    j->gap_m = j->o.at == MIX_AT_WORLD ? NAN : mix_gap(j, r);
+    j->placed = mix_object_to_scene(j);
     return mix_put_object(j, r);
 }

@@ -12,6 +12,9 @@ float mix_exposure(const mix_job *j);
 void mix_tell(const mix_job *j);
 void mix_tell_times(const mix_job *j);
 
+/* mix_placements: draws all pictures of a list of placements in one photo. Returns 1, or 0 with `r` set. */
+int mix_placements(mix_job *j, report *r);
+
 /* mix_frames: draws all frames of a list. Returns 1, or 0 with `r` set. */
 int mix_frames(const mix_options *o, report *r);
 

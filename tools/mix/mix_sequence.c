@@ -62,6 +62,7 @@ typedef struct sequence {
     int32_t width, height;             /* size of the first photo; 0: none read yet */
     int is_drawn, is_written;
     int is_over;                       /* memory or open files have run out: `failed` */
+    int32_t estimated, first_estimated; /* frames drawn without a depth of their own */
     int32_t left_out, run, last_out;   /* frames: total, since one was drawn, the number of the last one */
     report why, failed, first;         /* first: why the first one was left out */
 } sequence;
@@ -170,7 +171,11 @@ static void draw_next(sequence *s)
     mix_ready now = s->next;
     s->why = s->why_next;
     s->aside.count = 2;
+    const int lacks_depth = now.job != NULL && now.job->frame.lacks_depth;
     s->is_drawn = now.job != NULL && mix_draw_next(&now, &s->kept, &s->why);
+    if (s->is_drawn && lacks_depth && s->estimated++ == 0) {
+        s->first_estimated = s->at;
+    }
     if (s->aside.count > 0) {
         mix_aside_run(&s->aside, pool_threads(s->o->threads));
     } else if (!s->is_drawn && s->next.has_depth) {
@@ -203,7 +208,7 @@ static int keep_inputs(const mix_list *list, report *r)
             ok = file_keep(name, r);
         }
         free(name);
-        ok = ok && (e->prefix != NULL || (file_keep(e->photo, r) && file_keep(e->depth, r)));
+        ok = ok && (e->prefix != NULL || (file_keep(e->photo, r) && (e->depth == NULL || file_keep(e->depth, r))));
     }
     return ok;
 }
@@ -245,6 +250,7 @@ int mix_frames(const mix_options *o, report *r)
     sequence s;
     memset(&s, 0, sizeof s);
     s.o = o;
+    s.list.may_lack_depth = o->source.may_lack_depth;
     if (!mix_list_read(&s.list, o->frames, r) || !can_write(o, &s.list, r)) {
         mix_list_free(&s.list);
         return 0;
@@ -264,6 +270,9 @@ int mix_frames(const mix_options *o, report *r)
     }
     mix_ready_free(&s.next);
     tell_rest(&s);
+    report_note(o->is_quiet || s.estimated == 0,
+                "frames without depth: %d, the first is %d; it is estimated from earlier frames and their planes",
+                (int)s.estimated, (int)s.first_estimated);
     const int ok = end(&s, r);
     mix_kept_free(&s.kept);
     mix_spare_free(&s.spare);

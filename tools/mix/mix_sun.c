@@ -223,16 +223,16 @@ float mix_guess_sun(lmb_light *out, float *softens, const mix_job *j)
     for (int c = 0; c < 3; ++c) {
         out->intensity[c] = g.share * around[c];
     }
-    report_note(
-        j->o.is_quiet,
-        "no light given: %s, %.2f as strong as what is around, which is %.2f times as bright as the photo has it%s; "
-        "--light sun:0,0,0:%.3f,%.3f,%.3f:%.3f,%.3f,%.3f:%.0f",
-        g.is_lamp      ? "took a near light from how the photo's light falls off"
-        : g.sure > 0.0f ? "took a sun from the photo's shadows"
-                        : "nothing shows where light comes from, so took a weak one from above and soft shadows",
-        (double)g.share, (double)more, more > 1.0f ? "; given by hand, the sun leaves that as in the photo" : "",
-        (double)way.x, (double)way.y, (double)way.z, (double)out->intensity[0], (double)out->intensity[1],
-        (double)out->intensity[2], (double)g.size);
+    report_note(j->o.is_quiet,
+                "no light given: %s, %.2f as strong as the surroundings; --light sun:0,0,0:%.3f,%.3f,%.3f:%.3f,%.3f,"
+                "%.3f:%.0f",
+                g.is_lamp       ? "took a near light from how the photo's light falls off"
+                : g.sure > 0.0f ? "took a sun from the photo's shadows"
+                                : "nothing shows where light comes from, so took a weak one from above",
+                (double)g.share, (double)way.x, (double)way.y, (double)way.z, (double)out->intensity[0],
+                (double)out->intensity[1], (double)out->intensity[2], (double)g.size);
+    report_note(!j->o.is_verbose || !(more > 1.0f),
+                "the surroundings count %.2f times as bright as in the photo; with --light they do not", (double)more);
     return g.size;
 }
 

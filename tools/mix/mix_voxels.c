@@ -447,7 +447,7 @@ static lmb_texel *take_points(size_t *count, mix_job *j, uint32_t first_id, uint
 
 static int light_voxels(mix_job *j, report *r)
 {
-    const int32_t map = j->light_count > 0 ? j->maps[0][0].size : j->o.shadow_map, size = tree_side(j, map);
+    const int32_t map = j->light_count > j->lamp_count ? j->maps[0][0].size : j->o.shadow_map, size = tree_side(j, map);
     const size_t bytes = lmb_tree_bytes(1, size);
     lmb_vec3 low, high;
     points p;

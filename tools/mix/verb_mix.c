@@ -47,8 +47,9 @@ static int mix(mix_job *j, report *r)
     }
     mix_tell(j);
     mix_tell_times(j);
-    return picture_write(j->o.out, &j->picture, mix_exposure(j), PICTURE_CLIPPED, r) && mix_labels_write(j, r) &&
-           (j->o.stats == NULL || write_stats(j, r));
+    const float exposure_ev = mix_exposure(j);
+    return picture_write(j->o.out, &j->picture, exposure_ev, PICTURE_CLIPPED, r) &&
+           mix_labels_write(j, exposure_ev, r) && (j->o.stats == NULL || write_stats(j, r));
 }
 
 int verb_mix(int argc, char **argv)
@@ -65,7 +66,13 @@ int verb_mix(int argc, char **argv)
         return options_answer(asked, &mix_table, &r);
     }
     progress_begin(j->o.is_quiet, "mix");
+#if !defined(OPTIONS_WITHOUT_HELP)
+    const int ok = j->o.frames != NULL       ? mix_frames(&j->o, &r)
+                   : j->o.placements != NULL ? mix_placements(j, &r)
+                                             : mix(j, &r);
+#else
     const int ok = j->o.frames != NULL ? mix_frames(&j->o, &r) : mix(j, &r);
+#endif
     progress_end();
     mix_job_free(j);
     return ok ? 0 : report_end(&r, "mix", 1);

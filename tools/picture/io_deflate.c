@@ -11,6 +11,7 @@ enum {
     BLOCK_TOKENS = 16384, /* long enough to pay for a block's header, short enough to follow the picture */
     CHAIN_TRIES = 128,    /* candidates tried for one match */
     POOR_TRIES = 8,       /* tries if the block before had few matches, like a photo's noise: half the time for 1.5 % */
+    QUICK_TRIES = 2,      /* if time matters more than size */
     POOR_TOKEN = 3,       /* bytes per token, below which a block had few matches */
     GOOD_MATCH = 8,       /* with a match this long, only a quarter of the tries */
     LAZY_MATCH = 16,      /* shorter ones wait: the next byte may start a longer one */
@@ -54,7 +55,7 @@ typedef struct deflater {
     code_table litlen, dist;
     block_header header;
     bit_writer w;
-    int tries;
+    int tries, most_tries;
     int failed; /* memory was short */
 } deflater;
 
@@ -340,6 +341,7 @@ static void close_block(deflater *d, uint32_t last)
     uint64_t stored = 8 * raw + 40 * (raw / STORED_MAX + 1), fixed, dynamic, best; /* at most 5 bytes a piece */
 
     d->tries = raw < POOR_TOKEN * (uint64_t)d->token_count ? POOR_TRIES : CHAIN_TRIES;
+    d->tries = d->tries < d->most_tries ? d->tries : d->most_tries;
     ++d->litlen_freq[DEFLATE_END];
     fixed_codes(d);
     fixed = 3 + body_bits(d);
@@ -455,7 +457,7 @@ static void find_tokens(deflater *d)
     }
 }
 
-int deflate_zlib(uint8_t **out, size_t *out_size, const uint8_t *in, size_t in_size)
+static int deflate_by(uint8_t **out, size_t *out_size, const uint8_t *in, size_t in_size, int most_tries)
 {
     deflater *d = calloc(1, sizeof *d);
     uint8_t *data = NULL;
@@ -465,7 +467,7 @@ int deflate_zlib(uint8_t **out, size_t *out_size, const uint8_t *in, size_t in_s
     if (!d) return 0;
     d->in = in;
     d->size = in_size;
-    d->tries = CHAIN_TRIES;
+    d->tries = d->most_tries = most_tries;
     if (reserve(&d->w, 2 + in_size / 4 + 64)) {
         put(&d->w, 0x78, 8); /* deflate, 32 KiB window */
         put(&d->w, 0x9c, 8); /* default effort; makes the pair a multiple of 31 */
@@ -483,4 +485,14 @@ int deflate_zlib(uint8_t **out, size_t *out_size, const uint8_t *in, size_t in_s
     free(d->w.data);
     free(d);
     return *out != NULL;
+}
+
+int deflate_zlib(uint8_t **out, size_t *out_size, const uint8_t *in, size_t in_size)
+{
+    return deflate_by(out, out_size, in, in_size, CHAIN_TRIES);
+}
+
+int deflate_zlib_quick(uint8_t **out, size_t *out_size, const uint8_t *in, size_t in_size)
+{
+    return deflate_by(out, out_size, in, in_size, QUICK_TRIES);
 }

@@ -25,16 +25,17 @@ static uint64_t filter_row(uint8_t *out, const uint8_t *row, const uint8_t *abov
     return sum;
 }
 
-/* All rows, each after the number of a filter. `trial` holds one row; `zeros` is the row above the first. */
+/* All rows, each after the number of a filter; the first one tried is `first`. `trial` holds one row; `zeros` is the
+ * row above the first. */
 static void filter_rows(uint8_t *out, const uint8_t *rgb, size_t n, size_t pixel, int32_t height, uint8_t *trial,
-                        const uint8_t *zeros)
+                        const uint8_t *zeros, int first)
 {
     const uint8_t *above = zeros;
     int32_t y;
     for (y = 0; y < height; ++y, above = rgb, rgb += n, out += 1 + n) {
         uint64_t best = UINT64_MAX;
         int filter;
-        for (filter = 0; filter < PNG_FILTERS; ++filter) {
+        for (filter = first; filter < PNG_FILTERS; ++filter) {
             uint64_t sum = filter_row(trial, rgb, above, n, pixel, filter);
             if (sum < best) {
                 best = sum;
@@ -73,7 +74,8 @@ static uint8_t *assemble(size_t *out_size, const uint8_t *packed, size_t n, int3
     return data;
 }
 
-static int encode(file_bytes *out, const uint8_t *pixels, int32_t width, int32_t height, int alpha, report *r)
+static int encode(file_bytes *out, const uint8_t *pixels, int32_t width, int32_t height, int alpha, int quick,
+                  report *r)
 {
     const size_t pixel = alpha ? 4 : 3;
     uint8_t *rows, *packed;
@@ -86,8 +88,9 @@ static int encode(file_bytes *out, const uint8_t *pixels, int32_t width, int32_t
     n = (size_t)width * pixel;
     size = (size_t)height * (1 + n);
     rows = calloc(1, size + 2 * n); /* at the end, one row to try filters in and one of zeros */
-    if (rows) filter_rows(rows, pixels, n, pixel, height, rows + size, rows + size + n);
-    if (rows && deflate_zlib(&packed, &packed_size, rows, size)) {
+    if (rows) filter_rows(rows, pixels, n, pixel, height, rows + size, rows + size + n,
+                          quick ? PNG_PAETH : 0);
+    if (rows && (quick ? deflate_zlib_quick : deflate_zlib)(&packed, &packed_size, rows, size)) {
         out->data = assemble(&out->size, packed, packed_size, width, height, alpha);
         free(packed);
     }
@@ -97,10 +100,15 @@ static int encode(file_bytes *out, const uint8_t *pixels, int32_t width, int32_t
 
 int png_encode(file_bytes *out, const uint8_t *rgb, int32_t width, int32_t height, report *r)
 {
-    return encode(out, rgb, width, height, 0, r);
+    return encode(out, rgb, width, height, 0, 0, r);
+}
+
+int png_encode_quick(file_bytes *out, const uint8_t *rgb, int32_t width, int32_t height, report *r)
+{
+    return encode(out, rgb, width, height, 0, 1, r);
 }
 
 int png_encode_alpha(file_bytes *out, const uint8_t *rgba, int32_t width, int32_t height, report *r)
 {
-    return encode(out, rgba, width, height, 1, r);
+    return encode(out, rgba, width, height, 1, 0, r);
 }

@@ -11,6 +11,7 @@
 #include "../common/progress.h"
 #include "../common/view_frame.h"
 #include "../picture/picture.h"
+#include "../picture/world_read.h"
 #include "relight_contact.h"
 #include "relight_path.h"
 #include "relight_way.h"
@@ -31,6 +32,7 @@ typedef struct stage {
     figures figures;
     place_list path;
     lmb_probe_cache cache;
+    uint32_t worlds;        /* changes of the world along the path */
     slot_cubes cubes[LMB_MAX_PROBES];
     lmb_probe *probes;      /* by slot, or along a path by owner, then by roughness */
     way *ways;              /* by owner; NULL: no path, or the light changes at once */
@@ -146,7 +148,7 @@ static int light_owner(stage *s, lmb_probe_answer *answer, uint32_t owner, uint3
 {
     const float radius = s->o->policy.radius_m;
     const lmb_vec3 at = figures_middle(&s->figures, owner);
-    if (lmb_probe_cache_ask(answer, &s->cache, owner, at, 0, frame) != LMB_OK) {
+    if (lmb_probe_cache_ask(answer, &s->cache, owner, at, s->worlds, frame) != LMB_OK) {
         return report_fail(r, "--at: numbers over 1,000,000 m");
     }
     lmb_vec3 place = answer->place;
@@ -308,9 +310,31 @@ static int write(stage *s, const char *path, report *r)
     return picture_write(path, picture, s->o->exposure_ev, s->o->tone, r);
 }
 
+#if !defined(OPTIONS_WITHOUT_HELP) /* the web page has no paths */
+/* A path may name another world, as when clouds move. Its light counts at once, so it is not blended in. [S20 S28] */
+static int change_world(stage *s, const char *name, report *r)
+{
+    if (!relight_light_change(s->light, s->o, name, r)) {
+        return 0;
+    }
+    ++s->worlds;
+    for (uint32_t i = 0; i < s->figures.owners; ++i) {
+        way_free(&s->ways[i]);
+        memset(&s->ways[i], 0, sizeof s->ways[i]);
+    }
+    return 1;
+}
+
+#endif
+
 static int draw_place(void *user, int32_t i, const char *name, report *r)
 {
     stage *s = user;
+#if !defined(OPTIONS_WITHOUT_HELP)
+    if (s->path.world[i] != NULL && !change_world(s, s->path.world[i], r)) {
+        return 0;
+    }
+#endif
     const uint32_t kept = s->cache.kept;
     figures_stand(&s->figures, 0, s->path.place[i]);
     return light_figures(s, (uint32_t)i, r) && draw_shadows(s, r) && draw(s, r) && write(s, name, r) &&
@@ -434,6 +458,41 @@ static int tell_step(const stage *s, report *r)
     return report_flush(r);
 }
 
+#if !defined(OPTIONS_WITHOUT_HELP)
+static int can_be_read(const char *name, report *r)
+{
+    lmb_world_pictures place;
+    world_pictures own;
+    memset(&place, 0, sizeof place);
+    memset(&own, 0, sizeof own);
+    report none = {""}; /* a prefix of six files is no file */
+    const int ok =
+        world_read_cube(&place, &own, name, r) && (!file_is_plain(name, &none) || file_keep(name, r));
+    world_pictures_free(&own);
+    return ok;
+}
+#endif
+
+/* The worlds of a path are read when they begin, but before the first picture each is tried. */
+static int check_worlds(const stage *s, report *r)
+{
+#if !defined(OPTIONS_WITHOUT_HELP)
+    for (int32_t i = 0; i < s->path.count; ++i) {
+        const char *name = s->path.world[i];
+        if (name != NULL && s->o->worlds > 1) {
+            return report_fail(r, "%s: names a world, which needs a single --world; %d are given", s->o->path,
+                               (int)s->o->worlds);
+        }
+        if (name != NULL && !can_be_read(name, r)) {
+            return 0;
+        }
+    }
+#else
+    (void)s, (void)r;
+#endif
+    return 1;
+}
+
 static int run(stage *s, report *r)
 {
     const relight_options *o = s->o;
@@ -442,7 +501,7 @@ static int run(stage *s, report *r)
         return report_fail_usage(r, "--stereo: two views of %d px are wider than %d; try a smaller --size",
                                  (int)o->view.width, LMB_MAX_SIDE);
     }
-    if ((o->path != NULL && !place_list_read(&s->path, o->path, r)) ||
+    if ((o->path != NULL && (!place_list_read(&s->path, o->path, r) || !check_worlds(s, r))) ||
         !figures_load(&s->figures, o, o->path != NULL || o->objects > 1 ? 1 : (uint32_t)o->at_count, r) ||
         !take_cache(s, r)) {
         return 0;

@@ -88,6 +88,14 @@ int relight_light_make(relight_light *w, relight_options *o, report *r)
     return o->filter < FILTER_BLUR || make_blur(w, o->filter - FILTER_BLUR, r);
 }
 
+int relight_light_change(relight_light *w, relight_options *o, const char *name, report *r)
+{
+    free(w->world_memory[0]);
+    w->world_memory[0] = NULL;
+    o->world[0] = name;
+    return make_world(w, o, 0, r);
+}
+
 /* --- per place ---------------------------------------------------------------------------------------------------- */
 
 int relight_light_filter(relight_light *w, const relight_options *o, int32_t n)

@@ -23,6 +23,8 @@ typedef struct relight_light {
  * the view from a place into `map`, and filters the irradiance, n x n x 6, into `cube`. They return 1, or 0 with `r`
  * set. */
 int relight_light_make(relight_light *out, relight_options *o, report *r);
+/* relight_light_change: replaces the only world, seen from the same centre. Returns 1, or 0 with `r` set. [S20 S28] */
+int relight_light_change(relight_light *inout, relight_options *o, const char *name, report *r);
 int relight_light_at(relight_light *inout, const relight_options *o, lmb_vec3 at, int32_t n, report *r);
 /* relight_light_filter: filters `map` as it is. Returns 1, or 0 on failure. */
 int relight_light_filter(relight_light *inout, const relight_options *o, int32_t n);

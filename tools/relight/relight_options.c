@@ -192,7 +192,9 @@ static const option_row object_rows[] = {
 #if !defined(OPTIONS_WITHOUT_HELP) /* the web page draws one picture */
     {.name = "--path", .value = "FILE", .kind = OPTION_TEXT, AT(path), .file = OPTION_READS,
      .help = HELP("places of the object, X,Y,Z per line: a picture each, numbered by OUT's %0Nd, as frame_%04d.png, "
-             "or else by -0000, -0001, ...")},
+             "or else by -0000, -0001, ... If the world changes, as when clouds move, write the new world's file "
+             "behind the place, relative to FILE: it counts from that picture on, seen from the same centre. `lambent "
+             "capture` makes worlds of a scene")},
     {.name = "--reuse", .value = "M", .kind = OPTION_NUMBER, AT(policy.radius_m), .low = 0, .high = 1e5,
      .help = HELP("an object keeps its light until it is M metres from where it was computed (default 0.15; 0: until "
              "it rests)")},
@@ -280,6 +282,9 @@ static int check_together(const relight_options *o, report *r)
     }
     if ((o->object == NULL) != (o->out == NULL)) {
         return report_fail(r, "--object and -o go together");
+    }
+    if (o->object == NULL && o->stereo_m > 0.0f) {
+        return report_fail(r, "--stereo draws a picture for each eye; add --object FILE -o FILE.png");
     }
     if (o->path != NULL && o->out != NULL && file_is_stdout(o->out)) {
         return report_fail(r, "--path draws a picture a place: give -o a file name");

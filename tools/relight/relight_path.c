@@ -8,7 +8,7 @@
 #include "../common/io_file.h"
 #include "relight_options.h"
 
-enum { LONGEST = 200, MAX = 10000 };
+enum { LONGEST = 4096, MAX = 10000 };
 
 /* Copies a line without blanks at both ends. Returns 0 if it is too long for a place. */
 static int take_line(char out[LONGEST], const char *from, size_t length)
@@ -28,6 +28,27 @@ static int take_line(char out[LONGEST], const char *from, size_t length)
     return 1;
 }
 
+/* Cuts a world's name off the end of a line. Returns 0 with `r` set if it must not be read, or if memory is short. */
+static int take_world(char **out, char *word, const char *path, report *r)
+{
+    const char *slash = strrchr(path, '/');
+    const size_t folder = slash != NULL ? (size_t)(slash - path) + 1 : 0, comma = strcspn(word, " \t");
+    char *name = word + comma;
+    if (*name == '\0') {
+        return 1;
+    }
+    *name++ = '\0';
+    name += strspn(name, " \t");
+    const size_t from = name[0] == '/' ? 0 : folder, size = strlen(name);
+    *out = malloc(from + size + 1);
+    if (*out == NULL) {
+        return report_fail(r, "%s: out of memory", path);
+    }
+    memcpy(*out, path, from);
+    memcpy(*out + from, name, size + 1);
+    return file_is_below(*out, path, folder, r);
+}
+
 static int read_places(place_list *out, const char *text, size_t size, const char *path, report *r)
 {
     for (size_t at = 0, line = 1; at < size; ++line) {
@@ -41,7 +62,11 @@ static int read_places(place_list *out, const char *text, size_t size, const cha
             if (out->count == MAX) {
                 return report_fail(r, "%s:%u: over %d places", path, (unsigned)line, MAX);
             }
-            if (!relight_place(word, &out->place[out->count++])) {
+            const int32_t i = out->count++;
+            if (!take_world(&out->world[i], word, path, r)) {
+                return 0;
+            }
+            if (!relight_place(word, &out->place[i])) {
                 return report_fail(r, "%s:%u: `%s` is not X,Y,Z within 1,000,000 m", path, (unsigned)line, word);
             }
         }
@@ -58,13 +83,22 @@ int place_list_read(place_list *out, const char *path, report *r)
         return 0;
     }
     out->place = malloc(MAX * sizeof *out->place);
-    const int ok = out->place != NULL ? read_places(out, (const char *)file.data, file.size, path, r)
-                                      : report_fail(r, "%s: out of memory", path);
+    out->world = calloc(MAX, sizeof *out->world);
+    const int has_room = out->place != NULL && out->world != NULL;
+    const int ok = has_room ? read_places(out, (const char *)file.data, file.size, path, r)
+                            : report_fail(r, "%s: out of memory", path);
     file_free(&file);
     return ok;
 }
 
-void place_list_free(place_list *list) { free(list->place); }
+void place_list_free(place_list *list)
+{
+    for (int32_t i = 0; list->world != NULL && i < list->count; ++i) {
+        free(list->world[i]);
+    }
+    free(list->world);
+    free(list->place);
+}
 
 int place_tell(const place_list *list, int32_t i, const char *name, int is_kept)
 {

@@ -1,4 +1,5 @@
-/* relight_path.h: a file of places, X,Y,Z per line; empty lines and lines that begin with # are ignored. */
+/* relight_path.h: a file of places, X,Y,Z per line and, if the world changes there, a blank and the new world's name,
+ * relative to the file. Empty lines and lines that begin with # are ignored. */
 #ifndef RELIGHT_PATH_H
 #define RELIGHT_PATH_H
 
@@ -8,6 +9,7 @@
 
 typedef struct place_list {
     lmb_vec3 *place;
+    char **world; /* by place: the world from here on; NULL: unchanged */
     int32_t count;
 } place_list;
 

@@ -362,14 +362,20 @@ const lmb_irradiance *mix_soften(lmb_irradiance *room, const lmb_irradiance *wit
 /* --- mix_labels.h: no label pictures ----------------------------------------------------------------------------- */
 
 int mix_labels_take(mix_job *j, report *r) { return (void)j, (void)r, 1; }
-int mix_labels_write(const mix_job *j, report *r) { return (void)j, (void)r, 1; }
+int mix_labels_write(const mix_job *j, float ev, report *r) { return (void)j, (void)ev, (void)r, 1; }
 void mix_labels_sample(const mix_job *j, const lmb_tile *real, const lmb_tile *object, uint64_t shown)
 {
     (void)j, (void)real, (void)object, (void)shown;
 }
-void mix_labels_cover(const mix_job *j, const lmb_tile *real, const float covered[LMB_TILE_PIXELS])
+void mix_labels_cover(const mix_job *j, const lmb_tile *real, const lmb_radiance *over,
+                      const float covered[LMB_TILE_PIXELS])
 {
-    (void)j, (void)real, (void)covered;
+    (void)j, (void)real, (void)over, (void)covered;
+}
+void mix_labels_grain(lmb_radiance *inout, const mix_job *j, const lmb_tile *real,
+                      const float covered[LMB_TILE_PIXELS])
+{
+    (void)inout, (void)j, (void)real, (void)covered;
 }
 
 /* --- mix_frame.h, mix_job.h: depth has the photo's size, and planes do not change --------------------------------- */
@@ -386,6 +392,7 @@ lmb_status wireframe_draw(render_job *j) { return (void)j, LMB_ERR_ARG; }
 /* --- mix_lobes.h, mix_mirror.h, mix_sources.h, mix_job.h: objects are matt, planes do not change ------------------ */
 
 void mix_lobes_read(mix_job *j) { (void)j; }
+int mix_lobes_take(mix_job *j, report *r) { return (void)j, (void)r, 1; }
 void mix_mirror_planes(mix_job *j) { (void)j; }
 int mix_around(mix_job *j, report *r) { return (void)j, (void)r, 1; }
 int32_t mix_sources_find(lmb_light out[MIX_WAYS], mix_job *j, report *r) { return (void)out, (void)j, (void)r, 0; }
