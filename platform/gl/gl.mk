@@ -2,10 +2,9 @@
 
 GL_OUT     := $(BUILD)/gl
 GL_SRC     := $(sort $(wildcard platform/gl/gl_*.c))
-# The modules that draw.h and its kernels need.
-GL_LIB     := $(filter-out $(addprefix src/base/,motion.c pack.c records.c),$(wildcard src/base/*.c src/draw/*.c src/isa/*.c)) \
-    src/bounce/polygon.c \
-    $(addprefix src/raster/,setup.c target.c texture.c plane.c)
+# The modules that draw.h, its kernels and bounced light need.
+GL_LIB     := $(filter-out $(addprefix src/base/,motion.c pack.c records.c),\
+    $(foreach folder,base draw isa raster direct bounce occlusion live tree,$(wildcard src/$(folder)/*.c)))
 GL_OBJ     := $(patsubst %.c,$(GL_OUT)/obj/%.o,$(GL_SRC) $(GL_LIB))
 GL_NAMES   := $(addprefix $(GL_OUT)/,libOSMesa.so.8 libOSMesa.so libOpenGL.so.0 libGL.so.1)
 GL_COMPILE  = $(CC) -std=c99 $(CFLAGS) -fPIC $(WARNINGS) -ffp-contract=off -fno-math-errno -fno-builtin-bcmp -Iinclude \

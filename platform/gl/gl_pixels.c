@@ -252,6 +252,9 @@ OP(clear)
         return;
     }
     gl_find_surface(c, &s, c->framebuffer);
+    if ((w[0].u & GL_COLOR_BUFFER_BIT) != 0 && gl_is_on(c, CAP_BOUNCED)) {
+        gl_bounce_frame(c);
+    }
     int32_t x0 = 0, y0 = 0, x1 = s.width, y1 = s.height;
     if (gl_is_on(c, CAP_SCISSOR)) {
         const int32_t *b = c->s.scissor.box;
