@@ -21,8 +21,9 @@ enum {
     GL_BATCH = 4092, /* vertices in the batch: whole triangles, quads and pairs, so a multiple of 12 */
     GL_STACK = 32,   /* matrices of a stack */
     GL_ATTRIB_STACK = 16,
-    GL_LEVELS = 13,
-    GL_SIDE = 4096, /* px of a texture's side */
+    GL_LEVELS = 15,
+    GL_SIDE = 16384, /* px of a texture's side; */
+    GL_SIDE_CUBE = 4096, /* of a cube map's and a renderbuffer's */
     GL_SIDE_3D = 512,
     GL_LIST_DEPTH = 64,
     GL_MISSING = 64, /* names of missing calls that were looked up */
@@ -302,7 +303,7 @@ typedef struct gl_context {
     gl_texture *unit_texture[GL_UNITS]; /* the sampled texture: enabled and complete; or NULL */
     gl_image proxy[TARGETS];
     struct { const uint8_t *codes; int32_t width, height, kind; float x, y, zoom[2]; uint8_t colour[4]; } drawing;
-    float row[GL_SIDE + 8][4];
+    float row[GL_SIDE_CUBE + 8][4];
     int edges[GL_BATCH + 4];
     gl_surface window, drawn;
     uint64_t passed;

@@ -879,7 +879,8 @@ static int vertex_is_plain(gl_context *c)
     }
     const gl_texture *t = gl_unit_texture(c, 0);
     const gl_image *image = t->target == TARGET_2D ? &t->image[0][t->base_level] : NULL;
-    if (image == NULL || image->border != 0 || (t->min_filter != GL_NEAREST && t->min_filter != GL_LINEAR) ||
+    if (image == NULL || image->border != 0 || image->width > LMB_MAX_SIDE || image->height > LMB_MAX_SIDE ||
+        (t->min_filter != GL_NEAREST && t->min_filter != GL_LINEAR) ||
         t->min_filter != t->mag_filter || u->mode != GL_MODULATE || image->base == GL_DEPTH_COMPONENT) {
         return 0;
     }
