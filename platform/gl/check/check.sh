@@ -40,6 +40,8 @@ full() { program full $here/full.c; }
 # Bounced light: the checks of bounced.c, and the same pictures by every back end.
 bounced() {
     program bounced $here/bounced.c
+    if ${CC:-cc} -std=c99 -O1 -Iplatform/gl/include -o "$out/room" platform/gl/examples/bounced.c "$gl/libGL.a" -lm &&
+        "$out/room" "$out/room.ppm"; then good; else bad "examples/bounced.c"; fi
     for kernels in none scalar sse2 avx2 neon; do
         LAMBENT_GL_KERNELS=$kernels "$out/bounced" hash > "$out/bounced.hash"
         if cmp -s "$out/bounced.hash" $here/bounced.txt; then good; else bad "bounced by $kernels: $out/bounced.hash"; fi

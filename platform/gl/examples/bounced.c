@@ -46,8 +46,8 @@ static void frame(GLuint lists)
 
 int main(int argc, char **argv)
 {
-    static const float red[4] = {0.75f, 0.1f, 0.1f, 1}, green[4] = {0.1f, 0.6f, 0.1f, 1},
-                       white[4] = {0.75f, 0.75f, 0.75f, 1};
+    static const float red[4] = {0.7f, 0.1f, 0.1f, 1}, green[4] = {0.1f, 0.6f, 0.1f, 1},
+                       white[4] = {0.7f, 0.7f, 0.7f, 1};
     OSMesaContext context = OSMesaCreateContext(OSMESA_RGBA, NULL);
     if (!OSMesaMakeCurrent(context, pixels, GL_UNSIGNED_BYTE, WIDTH, HEIGHT)) {
         return 1;
@@ -70,12 +70,10 @@ int main(int argc, char **argv)
     frame(lists);
     frame(lists);
     FILE *f = argc > 1 ? fopen(argv[1], "wb") : NULL;
-    if (f == NULL || fprintf(f, "P6\n%d %d\n255\n", WIDTH, HEIGHT) < 0) {
-        return 1;
-    }
-    for (int i = 0; i < HEIGHT * WIDTH; ++i) {
+    (void)(f != NULL && fprintf(f, "P6\n%d %d\n255\n", WIDTH, HEIGHT));
+    for (int i = 0; f != NULL && i < HEIGHT * WIDTH; ++i) {
         (void)fwrite(pixels[HEIGHT - 1 - i / WIDTH][i % WIDTH], 1, 3, f);
     }
     OSMesaDestroyContext(context);
-    return fclose(f) != 0;
+    return f == NULL || fclose(f) != 0;
 }
