@@ -16,6 +16,7 @@
 enum { BOUNCE_FIRST = 1024 /* triangles */, BOUNCE_TEXELS = 32 /* a side, for the mean of a texture */,
        BOUNCE_MAX = 1 << 22, BOUNCES = 4 /* solved; the rest is estimated */ };
 #define BOUNCE_INSET 0.001f /* of the scene's size */
+#define BOUNCE_FLAT  0.999f /* least cosine of normals that share light */
 #define BOUNCE_SAME 1e-4f /* of the scene's size: what rounding may move */
 
 /* Triangles of a frame, in its eye space. */
@@ -569,13 +570,52 @@ static lmb_vec3 bounce_inset(const gl_bounce *b, lmb_vec3 at, lmb_vec3 middle)
     return add3(at, mul3(way, minf(by, 0.25f)));
 }
 
+static lmb_vec3 bounce_vec(const float (*v)[LMB_TILE_PIXELS], int k) { return vec3(v[0][k], v[1][k], v[2][k]); }
+
+/* The bounced light of pixel k, or of a point between pixels with k's normals. */
+static void bounce_receive(const gl_context *c, gl_bounce *b, float light[3], int k, lmb_vec3 place, lmb_vec3 middle)
+{
+    const lmb_tile *t = &b->tile;
+    const lmb_vec3 inside = bounce_inset(b, place, middle), face = bounce_vec(t->face, k),
+                   normal = bounce_vec(t->normal, k);
+    const lmb_live_receiver at = {inside, face, normal, 0, lmb_place_noise(place, t->depth[k]),
+                                  b->eye_kind == LMB_EYE_FAR ? b->eye : sub3(b->eye, inside), 0.0f};
+    light[0] = light[1] = light[2] = 0.0f;
+    if (is_place(place) && dot3(face, face) > 0.5f && dot3(normal, normal) > 0.5f) {
+        (void)lmb_live_receive(light, bounce_kernels(c), b->scratch, &b->live, &b->bvh, &at);
+    }
+}
+
+/* The bounced light of all pixels. 2 x 2 pixels of a nearly flat part share the light of their middle. */
+static void bounce_receive_all(const gl_context *c, gl_bounce *b, float light[64][3], uint64_t mask, lmb_vec3 middle)
+{
+    const lmb_tile *t = &b->tile;
+    const uint64_t four = 0x303u; /* of pixels 0, 1, 8, 9 */
+    for (; mask != 0; mask &= mask - 1) {
+        const int k = lowest_bit_64(mask), other[3] = {k + 1, k + 8, k + 9};
+        const int is_first = (k & 1) == 0 && (k & 8) == 0 && (mask >> k & four) == four;
+        const lmb_vec3 n = bounce_vec(t->normal, k);
+        lmb_vec3 sum = bounce_vec(t->position, k);
+        int is_flat = is_first;
+        for (int i = 0; i < 3 && is_flat; ++i) {
+            is_flat = dot3(n, bounce_vec(t->normal, other[i])) > BOUNCE_FLAT;
+            sum = add3(sum, bounce_vec(t->position, other[i]));
+        }
+        bounce_receive(c, b, light[k], k, is_flat ? mul3(sum, 0.25f) : bounce_vec(t->position, k), middle);
+        for (int i = 0; i < 3 && is_flat; ++i) {
+            memcpy(light[other[i]], light[k], sizeof light[k]);
+            mask &= ~((uint64_t)1 << other[i]);
+        }
+    }
+}
+
 void gl_bounce_pixels(const gl_context *c, const lmb_draw_pixels_of *p, const gl_made *const m[3], int side,
                       float colour[64][4], float second[64][3])
 {
     gl_bounce *b = c->bounce;
     lmb_tile *t = &b->tile;
     const float sign = side ? -1.0f : 1.0f;
-    float corner[3][3], sum[3], eye[64][4], normal[64][3];
+    float corner[3][3], sum[3], eye[64][4], normal[64][3], light[64][3];
     gl_material look[64];
     uint64_t hidden[GL_LIGHTS];
     memset(t, 0, sizeof *t);
@@ -613,25 +653,16 @@ void gl_bounce_pixels(const gl_context *c, const lmb_draw_pixels_of *p, const gl
     for (int i = 0; i < GL_LIGHTS; ++i) {
         hidden[i] = gl_is_on(c, CAP_LIGHT + i) ? bounce_hidden(c, b, &b->light[i], p->mask) : 0;
     }
+    bounce_receive_all(c, b, light, p->mask, middle);
     for (uint64_t bits = p->mask; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
         uint32_t seen = 0;
-        float light[3] = {0.0f, 0.0f, 0.0f};
         for (int i = 0; i < GL_LIGHTS; ++i) {
             seen |= (uint32_t)((hidden[i] >> k & 1u) == 0) << i;
         }
         gl_light_side(c, &look[k], eye[k], normal[k], seen, colour[k], second[k]);
-        const lmb_vec3 place = vec3(t->position[0][k], t->position[1][k], t->position[2][k]);
-        const lmb_vec3 face = vec3(t->face[0][k], t->face[1][k], t->face[2][k]);
-        const lmb_vec3 towards = vec3(t->normal[0][k], t->normal[1][k], t->normal[2][k]);
-        const lmb_vec3 inside = bounce_inset(b, place, middle);
-        const lmb_live_receiver at = {inside, face, towards, 0, lmb_place_noise(place, t->depth[k]),
-                                      b->eye_kind == LMB_EYE_FAR ? b->eye : sub3(b->eye, inside), 0.0f};
-        if (is_place(place) && dot3(face, face) > 0.5f && dot3(towards, towards) > 0.5f) {
-            (void)lmb_live_receive(light, bounce_kernels(c), b->scratch, &b->live, &b->bvh, &at);
-        }
         for (int i = 0; i < 3; ++i) {
-            colour[k][i] = gl_unit_range(colour[k][i] + look[k].diffuse[i] * light[i] * (1.0f / LMB_PI));
+            colour[k][i] = gl_unit_range(colour[k][i] + look[k].diffuse[i] * light[k][i] * (1.0f / LMB_PI));
             second[k][i] = gl_unit_range(second[k][i]);
         }
         colour[k][3] = gl_unit_range(colour[k][3]);
