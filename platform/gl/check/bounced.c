@@ -192,13 +192,17 @@ static const unsigned char *pixel(const unsigned char *of, int x, int y)
 
 static void looks(void)
 {
-    const unsigned char *shadow = pixel(lit, 100, 194), *floor = pixel(lit, 190, 192), *near_red = pixel(lit, 64, 222),
+    const unsigned char *shadow = pixel(lit, 97, 197), *floor = pixel(lit, 190, 196), *near_red = pixel(lit, 64, 222),
                         *near_green = pixel(lit, 256, 222), *ceiling = pixel(lit, 75, 20);
-    check(3 * shadow[1] < floor[1], "a shadow");
-    check(pixel(off, 100, 194)[1] * 3 > pixel(off, 190, 192)[1], "no shadow without it");
+    check(5 * shadow[1] < floor[1], "a shadow");
+    check(pixel(off, 97, 197)[1] * 5 > pixel(off, 190, 196)[1], "no shadow without it");
     check(near_red[0] * 20 > near_red[1] * 23 && near_green[1] * 20 > near_green[0] * 23, "colour on the floor");
     check(pixel(off, 64, 222)[0] == pixel(off, 64, 222)[1], "no colour without it");
     check(ceiling[0] > pixel(off, 75, 20)[0] + 10, "light on the ceiling");
+    for (int i = 0; i < 12; ++i) { /* pixels with their middle on the edge from the red wall to the ceiling */
+        const unsigned char *edge = lit + 4 * ((HEIGHT - 1 - 4 - i) * WIDTH + 16 + i);
+        check(edge[0] * 4 > edge[8] * 3, "a pixel on an edge");
+    }
 }
 
 /* Against lambent render: the means of blocks differ by at most 10 % of theirs and a code, their sum by 1 %. */
