@@ -630,7 +630,7 @@ msan: ## pictures, hard cases and the corpus under the memory sanitizer
 
 # The target gl needs platform/gl, with a small heap, so that it is full at times.
 FUZZ_GL  := $(call object,tests/fuzz/main_gl.c $(wildcard platform/gl/gl_*.c))
-$(FUZZ_GL): COMPILE += -Iplatform/gl/include -DFUZZER -DGL_HEAP_BYTES='((size_t)1<<22)'
+$(FUZZ_GL): COMPILE += -Iplatform/gl/include -DFUZZER -DGL_HEAP_BYTES='((size_t)1<<22)' -DGL_BOUNCE_ELEMENTS=256
 FUZZ_OBJ := $(call object,tests/fuzz/main_fuzz.c $(FUZZ_SRC)) $(FUZZ_GL) $(filter-out %/lambent.o,$(TOOL_OBJ))
 TARGETS   ?= png jpeg hdr pfm ppm pam picture inflate json gltf obj mtl ply lmr lmt lmf lmp cli api calls stages gl
 MINUTES   ?= 1

@@ -2,16 +2,18 @@
 
 GL_OUT     := $(BUILD)/gl
 GL_SRC     := $(sort $(wildcard platform/gl/gl_*.c))
-# The modules that draw.h and its kernels need.
-GL_LIB     := $(filter-out $(addprefix src/base/,motion.c pack.c records.c),$(wildcard src/base/*.c src/draw/*.c src/isa/*.c)) \
-    src/bounce/polygon.c \
-    $(addprefix src/raster/,setup.c target.c texture.c plane.c)
+# The modules that draw.h, its kernels and bounced light need.
+GL_LIB     := $(filter-out $(addprefix src/base/,motion.c pack.c records.c),\
+    $(foreach folder,base draw isa raster direct bounce occlusion live tree,$(wildcard src/$(folder)/*.c)))
 GL_OBJ     := $(patsubst %.c,$(GL_OUT)/obj/%.o,$(GL_SRC) $(GL_LIB))
 GL_NAMES   := $(addprefix $(GL_OUT)/,libOSMesa.so.8 libOSMesa.so libOpenGL.so.0 libGL.so.1)
-GL_COMPILE  = $(CC) -std=c99 $(CFLAGS) -fPIC $(WARNINGS) -ffp-contract=off -fno-math-errno -fno-builtin-bcmp -Iinclude \
+GL_COMPILE  = $(CC) -std=c99 $(CFLAGS) $(GL_MORE) -fPIC $(WARNINGS) -ffp-contract=off -fno-math-errno -fno-builtin-bcmp -Iinclude \
     -Iplatform/gl/include -MMD -MP
 
 gl: $(GL_NAMES) $(GL_OUT)/libGL.a ## OpenGL 1.x in memory: build/gl/libOSMesa.so.8, libOpenGL.so.0, libGL.so.1, libGL.a (platform/gl)
+
+# Gears takes a tenth less time if more of a draw's calls are inlined.
+$(GL_OUT)/obj/src/draw/%.o: GL_MORE := $(if $(filter -O2,$(CFLAGS)),-O3)
 
 $(GL_OUT)/obj/%.o: %.c platform/gl/gl.mk
 	@mkdir -p $(@D)
@@ -36,7 +38,8 @@ gl-check: gl ## programs of others on that library: PyOpenGL, GLU, piglit; skips
 
 gl-races: ## two contexts of that library in two threads, under clang's race detector
 	+@sh tests/scripts/tools.sh need clang clang-sanitizers && $(MAKE) gl-check GL_CLIENTS=threads \
-	    BUILD=$(BUILD)/gl-races CC=clang CFLAGS="-O1 -g1 -fsanitize=thread -DGL_HEAP_BYTES=4194304 $(PLAIN_KERNELS)"
+	    BUILD=$(BUILD)/gl-races CC=clang CFLAGS="-O1 -g1 -fsanitize=thread -DGL_HEAP_BYTES=4194304 -DGL_BOUNCE_ELEMENTS=256 \
+	    $(PLAIN_KERNELS)"
 
 GL_MACHINES := aarch64 mips riscv64
 gl-cross: ## the pictures of our own program on other machines, by emulators; skips machines if compilers are missing

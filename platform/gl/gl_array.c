@@ -247,6 +247,8 @@ static void array_draw(gl_context *c, GLenum mode, uint32_t first, GLsizei count
         gl_fail(c, GL_NO_ERROR); /* an error if a list runs it after glBegin */
         return;
     }
+    const gl_buffer *positions = c->client.array[ARRAY_VERTEX].buffer;
+    c->reads_static = positions != NULL && positions->usage == GL_STATIC_DRAW;
     gl_do(c, OP_begin, begin, 2);
     for (GLsizei i = 0; i < count; ++i) {
         array_element(c, p != NULL ? array_index(type, p, (size_t)i) : first + (uint32_t)i);
@@ -256,6 +258,7 @@ static void array_draw(gl_context *c, GLenum mode, uint32_t first, GLsizei count
     }
     c->s.current.v = kept;
     c->open = 0;
+    c->reads_static = 0;
 }
 
 void glDrawArrays(GLenum mode, GLint first, GLsizei count)

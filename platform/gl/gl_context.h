@@ -21,8 +21,9 @@ enum {
     GL_BATCH = 4092, /* vertices in the batch: whole triangles, quads and pairs, so a multiple of 12 */
     GL_STACK = 32,   /* matrices of a stack */
     GL_ATTRIB_STACK = 16,
-    GL_LEVELS = 13,
-    GL_SIDE = 4096, /* px of a texture's side */
+    GL_LEVELS = 15,
+    GL_SIDE = 16384, /* px of a texture's side; */
+    GL_SIDE_CUBE = 4096, /* of a cube map's and a renderbuffer's */
     GL_SIDE_3D = 512,
     GL_LIST_DEPTH = 64,
     GL_MISSING = 64, /* names of missing calls that were looked up */
@@ -49,7 +50,7 @@ enum {
     CAP_OFFSET_POINT, CAP_OFFSET_LINE, CAP_OFFSET_FILL, CAP_POLYGON_SMOOTH, CAP_POLYGON_STIPPLE, CAP_RESCALE,
     CAP_SCISSOR, CAP_STENCIL, CAP_INDEX_LOGIC, CAP_MULTISAMPLE, CAP_SAMPLE_ALPHA, CAP_SAMPLE_ONE, CAP_SAMPLE_COVERAGE,
     CAP_CLIP, /* 6 */ CAP_LIGHT = CAP_CLIP + GL_CLIP_PLANES, CAP_MAP1 = CAP_LIGHT + GL_LIGHTS, CAP_MAP2 = CAP_MAP1 + 9,
-    CAP_POINT_SPRITE = CAP_MAP2 + 9, CAPS
+    CAP_POINT_SPRITE = CAP_MAP2 + 9, CAP_BOUNCED, CAPS
 };
 enum { TARGET_1D, TARGET_2D, TARGET_RECT, TARGET_3D, TARGET_CUBE, TARGETS }; /* later ones first, if several are on */
 
@@ -224,6 +225,8 @@ typedef struct gl_matrices {
 /* A vertex after transformation and lighting. */
 typedef struct gl_made {
     float eye[4], clip[4], colour[2][4], second[2][3], fog, tex[GL_UNITS][4], size, edge;
+    float normal[3];         /* in eye space; only for bounced light, */
+    gl_material material[2]; /* and so are these */
 } gl_made;
 
 typedef struct gl_map {
@@ -266,6 +269,10 @@ typedef struct gl_context {
 
     /* batched vertices */
     int32_t is_inside;  /* between glBegin and glEnd */
+    int32_t is_static;  /* the batch is of a display list or a static buffer; only for bounced light */
+    int32_t reads_static; /* a call draws from static buffers */
+    struct gl_bounce *bounce; /* NULL: none yet */
+    int32_t bounce_failed; /* out of memory */
     GLenum primitive;
     int32_t count, made_count, first_kept, is_continued;
     gl_vertex loop_first;
@@ -287,6 +294,7 @@ typedef struct gl_context {
     lmb_texture draw_texture;
     struct gl_shade *shade;
     int32_t shades;      /* 1: the shader colours */
+    int32_t bounces;     /* 1: with bounced light */
     int32_t draws;       /* 0: there is no target */
     int32_t is_side, side; /* lines and points of a polygon: the visible side */
     uint32_t flat;
@@ -295,7 +303,7 @@ typedef struct gl_context {
     gl_texture *unit_texture[GL_UNITS]; /* the sampled texture: enabled and complete; or NULL */
     gl_image proxy[TARGETS];
     struct { const uint8_t *codes; int32_t width, height, kind; float x, y, zoom[2]; uint8_t colour[4]; } drawing;
-    float row[GL_SIDE + 8][4];
+    float row[GL_SIDE_CUBE + 8][4];
     int edges[GL_BATCH + 4];
     gl_surface window, drawn;
     uint64_t passed;
@@ -403,6 +411,19 @@ void gl_update_matrices(gl_context *c);
 void gl_set_draw(gl_context *c); /* derives draw.h's state from the context's */
 int gl_draw_func(GLenum func);
 void gl_light_vertex(gl_context *c, const gl_vertex *v, gl_made *made);
+/* One side's colours at a place in eye space. seen: lights that are not hidden, a bit each. */
+void gl_light_side(const gl_context *c, const gl_material *m, const float eye[4], const float n[3], uint32_t seen,
+                   float colour[4], float second[3]);
+/* Adds the light, pi times GL's, that a place with unit normal n receives. */
+void gl_light_receive(float inout[3], const gl_light *l, const float at[3], const float n[3]);
+/* Bounced light: a batch before it is drawn; a frame's end; whether pixels get it; the colours of a primitive's
+ * pixels. */
+void gl_bounce_batch(gl_context *c);
+void gl_bounce_frame(gl_context *c);
+void gl_bounce_free(gl_context *c);
+int gl_bounce_shows(const gl_context *c);
+void gl_bounce_pixels(const gl_context *c, const lmb_draw_pixels_of *p, const gl_made *const m[3], int side,
+                      float colour[64][4], float second[64][3]);
 void gl_gen_vertex(gl_context *c, const float at[4], const gl_vertex *v, gl_made *made);
 void gl_state_init(gl_context *c);
 void gl_set_array(gl_context *c);

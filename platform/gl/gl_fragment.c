@@ -430,8 +430,13 @@ uint64_t gl_shade_pixels(void *user, const lmb_draw_pixels_of *p, uint8_t out[64
     const int side =
         gl_is_on(c, CAP_LIGHTING) && c->s.lighting.two ? (is_area ? p->is_back : c->is_side && c->side) : 0;
     const int fogs = gl_is_on(c, CAP_FOG), sprites = is_point && gl_is_on(c, CAP_POINT_SPRITE);
+    const int bounces = is_area && c->bounces;
     uint64_t kept = p->mask;
     fragment_coords u[GL_UNITS];
+    float lit[64][4], second[64][3];
+    if (bounces) {
+        gl_bounce_pixels(c, p, m, side, lit, second);
+    }
     for (uint64_t bits = p->mask; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
         const int32_t x = p->x + (k & 7), y = p->y + (k >> 3);
@@ -443,7 +448,8 @@ uint64_t gl_shade_pixels(void *user, const lmb_draw_pixels_of *p, uint8_t out[64
         }
         lmb_draw_fragment(&f, p, k);
         for (int i = 0; i < 4; ++i) {
-            colour[i] = fragment_mix(m[0]->colour[side][i], m[1]->colour[side][i], m[2]->colour[side][i], f.share);
+            colour[i] = bounces ? lit[k][i] : fragment_mix(m[0]->colour[side][i], m[1]->colour[side][i],
+                                                           m[2]->colour[side][i], f.share);
         }
         for (int i = 0; i < GL_UNITS; ++i) {
             if (gl_unit_is_on(c, i)) {
@@ -456,7 +462,8 @@ uint64_t gl_shade_pixels(void *user, const lmb_draw_pixels_of *p, uint8_t out[64
         }
         fragment_texture(colour, c, u);
         for (int i = 0; i < 3; ++i) {
-            colour[i] += fragment_mix(m[0]->second[side][i], m[1]->second[side][i], m[2]->second[side][i], f.share);
+            colour[i] += bounces ? second[k][i] : fragment_mix(m[0]->second[side][i], m[1]->second[side][i],
+                                                               m[2]->second[side][i], f.share);
             colour[i] = gl_unit_range(colour[i]);
         }
         if (fogs) {

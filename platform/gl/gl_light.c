@@ -159,7 +159,7 @@ static void light_normal(const gl_context *c, const float in[3], float out[3])
 }
 
 /* Shared by both sides of a vertex: direction to the light, and attenuation. */
-static float light_way(const gl_light *l, const float eye[4], float to[3])
+static float light_way(const gl_light *l, const float *eye, float to[3])
 {
     float share = 1.0f;
     for (int i = 0; i < 3; ++i) {
@@ -180,10 +180,10 @@ static float light_way(const gl_light *l, const float eye[4], float to[3])
 }
 
 static void light_add(const gl_context *c, const gl_material *m, const gl_light *l, const float eye[4],
-                      const float n[3], float colour[3], float second[3])
+                      const float n[3], int seen, float colour[3], float second[3])
 {
     float to[3], half[3];
-    const float share = light_way(l, eye, to), facing = light_dot(n, to);
+    const float share = light_way(l, eye, to), facing = seen ? light_dot(n, to) : 0.0f;
     float highlight = 0.0f;
     if (share == 0.0f) {
         return;
@@ -210,8 +210,8 @@ static void light_add(const gl_context *c, const gl_material *m, const gl_light 
     }
 }
 
-static void light_side(const gl_context *c, const gl_material *m, const float eye[4], const float n[3],
-                       float colour[4], float second[3])
+void gl_light_side(const gl_context *c, const gl_material *m, const float eye[4], const float n[3], uint32_t seen,
+                   float colour[4], float second[3])
 {
     for (int i = 0; i < 3; ++i) {
         colour[i] = m->emission[i] + m->ambient[i] * c->s.lighting.ambient[i];
@@ -219,10 +219,19 @@ static void light_side(const gl_context *c, const gl_material *m, const float ey
     }
     for (int i = 0; i < GL_LIGHTS; ++i) {
         if (gl_is_on(c, CAP_LIGHT + i)) {
-            light_add(c, m, &c->s.lighting.light[i], eye, n, colour, second);
+            light_add(c, m, &c->s.lighting.light[i], eye, n, (int)(seen >> i & 1u), colour, second);
         }
     }
     colour[3] = m->diffuse[3];
+}
+
+void gl_light_receive(float inout[3], const gl_light *l, const float at[3], const float n[3])
+{
+    float to[3];
+    const float share = light_way(l, at, to), facing = light_dot(n, to) * share * LMB_PI;
+    for (int i = 0; i < 3 && facing > 0.0f && facing < 1e12f; ++i) {
+        inout[i] += facing * maxf(l->diffuse[i], 0.0f);
+    }
 }
 
 void gl_light_vertex(gl_context *c, const gl_vertex *v, gl_made *made)
@@ -237,12 +246,16 @@ void gl_light_vertex(gl_context *c, const gl_vertex *v, gl_made *made)
         }
     }
     light_normal(c, v->normal, n);
-    light_side(c, &c->s.lighting.material[0], eye, n, made->colour[0], made->second[0]);
+    if (gl_is_on(c, CAP_BOUNCED)) {
+        memcpy(made->normal, n, sizeof n);
+        memcpy(made->material, c->s.lighting.material, sizeof made->material);
+    }
+    gl_light_side(c, &c->s.lighting.material[0], eye, n, ~0u, made->colour[0], made->second[0]);
     if (c->s.lighting.two) {
         for (int i = 0; i < 3; ++i) {
             n[i] = -n[i];
         }
-        light_side(c, &c->s.lighting.material[1], eye, n, made->colour[1], made->second[1]);
+        gl_light_side(c, &c->s.lighting.material[1], eye, n, ~0u, made->colour[1], made->second[1]);
     }
     for (int s = 0; s < 2; ++s) {
         for (int i = 0; i < 4; ++i) {

@@ -298,6 +298,7 @@ void OSMesaDestroyContext(OSMesaContext context)
     }
     gl_context *owner = c->owner;
     osmesa_free_window(c);
+    gl_bounce_free(c);
     c->is_destroyed = 1;
     --c->group->users;
     if (owner->group->users == 0) { /* the block with the group goes last */

@@ -138,9 +138,9 @@ uint8_t *gl_read_codes(gl_context *c, int w, int h, int d, int dims, GLenum form
     }
     for (int z = 0; z < d && !is_bytes; ++z) {
         for (int y = 0; y < h; ++y) {
-            for (int x = 0; x < w; x += GL_SIDE) {
+            for (int x = 0; x < w; x += GL_SIDE_CUBE) {
                 gl_store at = s;
-                const int n = mini(w - x, GL_SIDE);
+                const int n = mini(w - x, GL_SIDE_CUBE);
                 at.height = s.height > 0 && dims == 3 ? s.height : h;
                 at.images = (dims == 3 ? s.images : 0) + z;
                 at.rows = s.rows + y;
@@ -196,8 +196,8 @@ uint8_t *gl_copy_codes(gl_context *c, int32_t x, int32_t y, int32_t w, int32_t h
     uint8_t *out = gl_alloc(c, (format == GL_DEPTH_STENCIL ? 2 * plane : plane) + 4);
     gl_find_surface(c, &s, c->read_framebuffer);
     for (int32_t j = 0; j < h && out != NULL; ++j) {
-        for (int32_t i = 0; i < w; i += GL_SIDE) {
-            const int32_t n = mini(w - i, GL_SIDE);
+        for (int32_t i = 0; i < w; i += GL_SIDE_CUBE) {
+            const int32_t n = mini(w - i, GL_SIDE_CUBE);
             pixels_fetch(&s, c->row, (int64_t)x + i, (int64_t)y + j, n, pixels_kind(format));
             uint8_t *to = out + 4 * ((size_t)j * (size_t)w + (size_t)i);
             pixels_codes(c, to, to + plane, c->row, n, format);
@@ -252,6 +252,9 @@ OP(clear)
         return;
     }
     gl_find_surface(c, &s, c->framebuffer);
+    if ((w[0].u & GL_COLOR_BUFFER_BIT) != 0 && gl_is_on(c, CAP_BOUNCED)) {
+        gl_bounce_frame(c);
+    }
     int32_t x0 = 0, y0 = 0, x1 = s.width, y1 = s.height;
     if (gl_is_on(c, CAP_SCISSOR)) {
         const int32_t *b = c->s.scissor.box;
@@ -381,8 +384,8 @@ void glReadPixels(GLint x, GLint y, GLsizei w, GLsizei h, GLenum format, GLenum 
                                           format)) {
             continue;
         }
-        for (int32_t i = 0; i < w; i += GL_SIDE) {
-            const int32_t n = mini(w - i, GL_SIDE);
+        for (int32_t i = 0; i < w; i += GL_SIDE_CUBE) {
+            const int32_t n = mini(w - i, GL_SIDE_CUBE);
             gl_store at = c->client.pack;
             pixels_fetch(&s, c->row, (int64_t)x + i, (int64_t)y + j, n, kind);
             for (int32_t k = 0; k < n && kind != PIXELS_COLOUR; ++k) {

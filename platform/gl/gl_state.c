@@ -38,7 +38,8 @@ static const struct { GLenum name; int32_t cap; GLbitfield group; } state_caps[]
     {GL_STENCIL_TEST, CAP_STENCIL, GL_STENCIL_BUFFER_BIT}, {GL_MULTISAMPLE, CAP_MULTISAMPLE, GL_MULTISAMPLE_BIT},
     {GL_SAMPLE_ALPHA_TO_COVERAGE, CAP_SAMPLE_ALPHA, GL_MULTISAMPLE_BIT},
     {GL_SAMPLE_ALPHA_TO_ONE, CAP_SAMPLE_ONE, GL_MULTISAMPLE_BIT},
-    {GL_SAMPLE_COVERAGE, CAP_SAMPLE_COVERAGE, GL_MULTISAMPLE_BIT}};
+    {GL_SAMPLE_COVERAGE, CAP_SAMPLE_COVERAGE, GL_MULTISAMPLE_BIT},
+    {GL_BOUNCED_LIGHT_LMB, CAP_BOUNCED, GL_LIGHTING_BIT}};
 enum { STATE_CAPS = sizeof state_caps / sizeof state_caps[0] };
 
 /* A capability's number, or -1. */
@@ -83,6 +84,9 @@ void gl_op_enable(gl_context *c, const gl_word *w)
     uint32_t bit = 0, *unit = cap < 0 ? state_unit_cap(c, w[0].u, &bit) : NULL;
     if (cap >= 0) {
         c->s.caps = (c->s.caps & ~((uint64_t)1 << cap)) | (uint64_t)(w[1].i != 0) << cap;
+        if (cap == CAP_BOUNCED && w[1].i == 0) {
+            c->bounce_failed = 0;
+        }
         if (cap == CAP_COLOR_MATERIAL && w[1].i != 0) {
             const gl_word track[2] = {{.u = c->s.lighting.tracks_face}, {.u = c->s.lighting.tracks}};
             gl_op_colour_material(c, track);

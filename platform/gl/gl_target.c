@@ -104,7 +104,7 @@ static GLenum target_status(gl_context *c, const gl_framebuffer *f)
             (i == 1 && m == NULL && (r == NULL || r->data == NULL))) {
             return GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT_EXT;
         }
-        if (i == 1 && m != NULL && pw % LMB_TILE != 0) {
+        if ((i == 1 && m != NULL && pw % LMB_TILE != 0) || pw > LMB_MAX_SIDE || ph > LMB_MAX_SIDE) {
             return GL_FRAMEBUFFER_UNSUPPORTED_EXT;
         }
         any = 1; /* sizes may differ: draws go to the part that all have */
@@ -426,7 +426,7 @@ void glRenderbufferStorageMultisample(GLenum target, GLsizei samples, GLenum int
     GL_FAIL(!(base == GL_RGB || base == GL_RGBA || target_is_depth(internal) || target_is_stencil(internal)) ||
                 internal <= 4,
             GL_INVALID_ENUM, )
-    GL_FAIL(w < 0 || h < 0 || w > GL_SIDE || h > GL_SIDE || samples < 0 || samples > 1, GL_INVALID_VALUE, )
+    GL_FAIL(w < 0 || h < 0 || w > GL_SIDE_CUBE || h > GL_SIDE_CUBE || samples < 0 || samples > 1, GL_INVALID_VALUE, )
     gl_flush_vertices(c);
     c->dirty = 1;
     const size_t n = (size_t)(target_is_depth(internal) ? gl_depth_stride(w) : w) * (size_t)h;

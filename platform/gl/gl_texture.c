@@ -271,11 +271,16 @@ static int texture_size_is_good(int32_t size, int32_t border, int32_t largest)
     return size - 2 * border >= 0 && size - 2 * border <= largest;
 }
 
+static int32_t texture_largest(int kind)
+{
+    return kind == TARGET_3D ? GL_SIDE_3D : kind == TARGET_CUBE ? GL_SIDE_CUBE : GL_SIDE;
+}
+
 /* Checks of an image's arguments. */
 static GLenum texture_check(GLenum target, int kind, GLint level, GLenum internal, int32_t w, int32_t h, int32_t d,
                             GLint border)
 {
-    const int32_t largest = (kind == TARGET_3D ? GL_SIDE_3D : GL_SIDE) >> clampi(level, 0, GL_LEVELS);
+    const int32_t largest = texture_largest(kind) >> clampi(level, 0, GL_LEVELS);
     (void)target;
     if (kind < 0) {
         return GL_INVALID_ENUM;
@@ -415,8 +420,12 @@ static void texture_image(GLenum target, GLint level, GLenum internal, int32_t w
     GLenum error = gl_check_image(format, type);
     GL_FAIL_LISTED(error != GL_NO_ERROR, error)
     error = texture_check(target, kind, level, internal, w, h, d, border);
-    const int32_t largest = (kind == TARGET_3D ? GL_SIDE_3D : GL_SIDE) + 2 * (border == 1);
+    const int32_t largest = texture_largest(kind) + 2 * (border == 1);
     const int is_large = w > largest || (dims > 1 && h > largest) || (dims > 2 && d > largest);
+    if (proxy >= 0 && error == GL_NO_ERROR && (uint64_t)w * (uint64_t)h * (uint64_t)d > c->group->heap.bytes / 8) {
+        memset(&c->proxy[kind], 0, sizeof c->proxy[kind]); /* too large for the heap */
+        return;
+    }
     if (proxy >= 0 && (error == GL_NO_ERROR || (is_large && level >= 0 && (border == 0 || border == 1)))) {
         memset(&c->proxy[kind], 0, sizeof c->proxy[kind]);
         if (error == GL_NO_ERROR) {

@@ -53,9 +53,11 @@ OP(begin)
         return;
     }
     GL_FAIL(w[0].u > GL_POLYGON, GL_INVALID_ENUM, )
-    if (c->count > 0 && !(c->primitive == w[0].u && vertex_is_apart(w[0].u))) {
+    const int is_static = gl_is_on(c, CAP_BOUNCED) && (c->list_depth > 0 || c->reads_static);
+    if (c->count > 0 && (!(c->primitive == w[0].u && vertex_is_apart(w[0].u)) || is_static != c->is_static)) {
         gl_flush_vertices(c);
     }
+    c->is_static = is_static;
     if (!gl_surface_ready(c, c->framebuffer)) {
         return;
     }
@@ -403,6 +405,15 @@ static void vertex_polygon(gl_context *c, const uint32_t *at, int n, const int *
 /* With GL_FLAT all vertices get the colour of one: by copying, or as an index for the shader. */
 static void vertex_set_flat(gl_context *c, uint32_t provoking) { c->flat = provoking; }
 
+/* With GL_FLAT and bounced light: what a pixel's colour is computed from. */
+static void vertex_copy_look(gl_context *c, uint32_t to, uint32_t from)
+{
+    if (c->bounces && to != from) {
+        memcpy(c->made[to].normal, c->made[from].normal, sizeof c->made[to].normal);
+        memcpy(c->made[to].material, c->made[from].material, sizeof c->made[to].material);
+    }
+}
+
 static void vertex_polygon_flat(gl_context *c, const uint32_t *at, int n, uint32_t flat)
 {
     static const int all[4] = {1, 1, 1, 1};
@@ -416,6 +427,7 @@ static void vertex_polygon_flat(gl_context *c, const uint32_t *at, int n, uint32
     for (int i = 0; i < n && flattens; ++i) {
         memcpy(c->made[at[i]].colour, from.colour, sizeof from.colour);
         memcpy(c->made[at[i]].second, from.second, sizeof from.second);
+        vertex_copy_look(c, at[i], flat);
         for (int k = 0; k < 4; ++k) {
             c->colour_of[at[i]][k] = gl_code(from.colour[0][k]);
         }
@@ -456,6 +468,7 @@ static void vertex_whole_polygon(gl_context *c, uint32_t n)
         if (c->s.lighting.shade == GL_FLAT && i > 0) {
             memcpy(c->made[i].colour, c->made[0].colour, sizeof c->made[0].colour);
             memcpy(c->made[i].second, c->made[0].second, sizeof c->made[0].second);
+            vertex_copy_look(c, i, 0);
             memcpy(c->colour_of[i], c->colour_of[0], 4);
         }
     }
@@ -693,6 +706,9 @@ void gl_flush_vertices(gl_context *c)
     if (c->count == 0) {
         return;
     }
+    if (gl_is_on(c, CAP_BOUNCED)) {
+        gl_bounce_batch(c);
+    }
     gl_set_draw(c);
     const int mode = vertex_area_mode(c), shows = c->window.is_complete && c->drawn.is_complete && c->draws;
     if (mode < 0 || (shows && !vertex_all_out(c) && !vertex_plain(c, mode))) {
@@ -863,7 +879,8 @@ static int vertex_is_plain(gl_context *c)
     }
     const gl_texture *t = gl_unit_texture(c, 0);
     const gl_image *image = t->target == TARGET_2D ? &t->image[0][t->base_level] : NULL;
-    if (image == NULL || image->border != 0 || (t->min_filter != GL_NEAREST && t->min_filter != GL_LINEAR) ||
+    if (image == NULL || image->border != 0 || image->width > LMB_MAX_SIDE || image->height > LMB_MAX_SIDE ||
+        (t->min_filter != GL_NEAREST && t->min_filter != GL_LINEAR) ||
         t->min_filter != t->mag_filter || u->mode != GL_MODULATE || image->base == GL_DEPTH_COMPONENT) {
         return 0;
     }
@@ -932,7 +949,8 @@ void gl_set_draw(gl_context *c)
         d->offset_slope = c->s.polygon.factor;
         d->offset_units = c->s.polygon.units;
     }
-    c->shades = !vertex_is_plain(c);
+    c->bounces = gl_bounce_shows(c);
+    c->shades = !vertex_is_plain(c) || c->bounces;
     if (c->shades) {
         memset(&d->stage[0], 0, sizeof d->stage[0]);
         d->shader = gl_shade_pixels;

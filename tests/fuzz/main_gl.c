@@ -52,7 +52,7 @@ static const GLenum words[] = {
     GL_DEPTH24_STENCIL8_EXT, GL_MAP1_VERTEX_3, GL_MAP2_VERTEX_4, GL_AUTO_NORMAL, GL_UNPACK_ROW_LENGTH,
     GL_UNPACK_SKIP_ROWS, GL_UNPACK_ALIGNMENT, GL_UNPACK_SWAP_BYTES, GL_PACK_ALIGNMENT, GL_PIXEL_MAP_I_TO_R,
     GL_MAP_COLOR, GL_RED_SCALE, GL_POSITION, GL_SPOT_CUTOFF, GL_AMBIENT, GL_SHININESS, GL_LIGHT_MODEL_TWO_SIDE,
-    GL_COLOR_MATERIAL, GL_2D, GL_4D_COLOR_TEXTURE, GL_CULL_FACE, GL_NORMALIZE};
+    GL_COLOR_MATERIAL, GL_2D, GL_4D_COLOR_TEXTURE, GL_CULL_FACE, GL_NORMALIZE, GL_BOUNCED_LIGHT_LMB};
 
 static GLenum word(stream *s)
 {
@@ -345,6 +345,26 @@ static void require(int holds, const char *what)
     }
 }
 
+/* Two frames with bounced light, of a list with any shape. */
+static void call_bounced(stream *s)
+{
+    const GLuint name = next(s) % 6 + 1;
+    glEnable(GL_BOUNCED_LIGHT_LMB);
+    glEnable(GL_LIGHTING);
+    glEnable(GL_LIGHT0 + next(s) % 8);
+    glNewList(name, GL_COMPILE);
+    call_shape(s);
+    glEndList();
+    for (int i = 0; i < 2; ++i) {
+        glClear(next(s) % 8 ? GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT : word(s));
+        call_state(s, next(s));
+        glCallList(name);
+        if (next(s) % 4 == 0) {
+            glDeleteLists(name, 1);
+        }
+    }
+}
+
 static void call_any(stream *s)
 {
     const uint32_t which = next(s);
@@ -353,6 +373,13 @@ static void call_any(stream *s)
     case 1: case 2: case 3: call_state(s, which / 9); break;
     case 4: call_objects(s, which / 9); break;
     case 5: call_more(s, which / 9); break;
+    case 6:
+        if (which / 9 % 8 == 0) {
+            call_bounced(s);
+            break;
+        }
+        call_shape(s);
+        break;
     default: call_shape(s); break;
     }
     const GLenum error = glGetError();

@@ -30,12 +30,23 @@ program() {
         bad "$2 does not compile"
         return
     fi
-    if "$out/$1" 2> "$out/$1.txt"; then good; else bad "$1: see $out/$1.txt"; fi
+    if "$out/$1" > "$out/$1.out" 2> "$out/$1.txt"; then good; else bad "$1: see $out/$1.txt"; fi
 }
 hostile() { program hostile tests/fuzz/main_gl.c; }
 outside() { program outside $here/outside.c; }
 threads() { program threads $here/threads.c; }
 full() { program full $here/full.c; }
+
+# Bounced light: the checks of bounced.c, and the same pictures by every back end.
+bounced() {
+    program bounced $here/bounced.c
+    if ${CC:-cc} -std=c99 -O1 -Iplatform/gl/include -o "$out/room" platform/gl/examples/bounced.c "$gl/libGL.a" -lm &&
+        "$out/room" "$out/room.ppm"; then good; else bad "examples/bounced.c"; fi
+    for kernels in none scalar sse2 avx2 neon; do
+        LAMBENT_GL_KERNELS=$kernels "$out/bounced" hash > "$out/bounced.hash"
+        if cmp -s "$out/bounced.hash" $here/bounced.txt; then good; else bad "bounced by $kernels: $out/bounced.hash"; fi
+    done
+}
 
 # A C program with GLU: quadrics and tessellation by Debian's libGLU, which draws through our libOpenGL.
 glu() {
@@ -86,8 +97,8 @@ piglit() {
     if [ -z "$missing" ]; then good; else bad "piglit: $missing"; fi
 }
 
-clients=${GL_CLIENTS:-own hostile outside threads full glu glfw pyopengl piglit}
-[ "$clients" = fast ] && clients="own hostile outside threads full glu glfw pyopengl"
+clients=${GL_CLIENTS:-own hostile outside threads full bounced glu glfw pyopengl piglit}
+[ "$clients" = fast ] && clients="own hostile outside threads full bounced glu glfw pyopengl"
 for client in $clients; do
     $client
 done

@@ -1,5 +1,6 @@
 #!/bin/sh
-# Checks that other machines draw the same bytes: cross.sh BUILD MACHINE ... An emulator runs own.c for each machine.
+# Checks that other machines draw the same bytes: cross.sh BUILD MACHINE ... An emulator runs own.c and bounced.c for each
+# machine.
 #
 # A machine is skipped if its compiler or emulator is missing. MAKE and CFLAGS are make's.
 set -u
@@ -26,10 +27,12 @@ for machine; do
     $cc -std=c99 -O1 -static -Iplatform/gl/include -o "$out/own" $here/own.c "$out/gl/libGL.a" -lm || exit 1
     $run "$out/own" > "$out/own.txt"
     status=$?
-    if [ $status -eq 0 ] && cmp -s "$out/own.txt" $here/own.txt; then
+    $cc -std=c99 -O1 -static -Iplatform/gl/include -o "$out/bounced" $here/bounced.c "$out/gl/libGL.a" -lm || exit 1
+    $run "$out/bounced" hash > "$out/bounced.txt" || status=$?
+    if [ $status -eq 0 ] && cmp -s "$out/own.txt" $here/own.txt && cmp -s "$out/bounced.txt" $here/bounced.txt; then
         echo "$machine: equal"
     else
-        echo "FAILED: $machine: $out/own.txt is not $here/own.txt (exit status $status)"
+        echo "FAILED: $machine: $out/own.txt or bounced.txt is not that of $here (exit status $status)"
         failed=1
     fi
 done

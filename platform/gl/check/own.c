@@ -225,6 +225,34 @@ static void depth_stencil(void)
     expect(GL_NO_ERROR, "depth-stencil");
 }
 
+/* A texture with a side above the limit of lambent.h's textures: green in the last row. */
+static void tall(void)
+{
+    enum { TALL = 12000 };
+    static unsigned char texels[TALL][3];
+    GLint max = 0;
+    texels[TALL - 1][1] = 255;
+    glDisable(GL_TEXTURE_GEN_S);
+    glDisable(GL_TEXTURE_GEN_T);
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &max);
+    check(max >= TALL, "GL_MAX_TEXTURE_SIZE");
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB, 1, TALL, 0, GL_RGB, GL_UNSIGNED_BYTE, texels);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_REPLACE);
+    glEnable(GL_TEXTURE_2D);
+    glDisable(GL_DEPTH_TEST);
+    glTexCoord2f(0.5f, (TALL - 0.5f) / TALL);
+    glRectf(-1, -1, 1, 1);
+    glFinish();
+    check(pixels[20][20][1] == 255 && pixels[20][20][0] == 0, "a tall texture");
+    glTexImage2D(GL_PROXY_TEXTURE_2D, 0, GL_RGBA, max, max, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
+    glGetTexLevelParameteriv(GL_PROXY_TEXTURE_2D, 0, GL_TEXTURE_WIDTH, &max);
+    check(max == 0, "a texture as large as the heap");
+    expect(GL_NO_ERROR, "a tall texture");
+}
+
 int main(void)
 {
     static const char *const names[8] = {"lights", "nearest", "mips", "fog", "stipple", "lists", "sphere", "points"};
@@ -249,6 +277,7 @@ int main(void)
             many();
             list_errors();
             depth_stencil();
+            tall();
         }
         OSMesaDestroyContext(c); /* while it is current */
     }

@@ -4,11 +4,12 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { SIDE = 64 };
-static unsigned char pixels[2][SIDE * SIDE * 4];
+enum { SIDE = 64, BYTES = SIDE * SIDE * 4 };
+static unsigned char pixels[2][2 * BYTES]; /* of each thread: the last picture, and the last one with bounced light */
 
 static void *draw(void *at)
 {
+    unsigned char lit[BYTES] = {0};
     for (int round = 0; round < 20; ++round) {
         OSMesaContext c = OSMesaCreateContext(OSMESA_RGBA, NULL);
         if (c == NULL || !OSMesaMakeCurrent(c, at, GL_UNSIGNED_BYTE, SIDE, SIDE)) {
@@ -27,9 +28,21 @@ static void *draw(void *at)
         glEnd();
         glEndList();
         glCallList(1);
+        if (round % 10 == 0) { /* with bounced light: two frames */
+            glDisable(GL_FOG);
+            glEnable(GL_LIGHTING);
+            glEnable(GL_LIGHT0);
+            glEnable(GL_BOUNCED_LIGHT_LMB);
+            for (int i = 0; i < 2; ++i) {
+                glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+                glCallList(1);
+            }
+            memcpy(lit, at, sizeof lit);
+        }
         glFinish();
         OSMesaDestroyContext(c);
     }
+    memcpy((unsigned char *)at + BYTES, lit, sizeof lit);
     return at;
 }
 

@@ -1374,6 +1374,9 @@ typedef ptrdiff_t GLsizeiptrARB;
 #define GL_ALL_CLIENT_ATTRIB_BITS                    0xFFFFFFFF
 #define GL_CLIENT_ALL_ATTRIB_BITS                    0xFFFFFFFF
 
+/* lambent's own, above all registered numbers: shadows and bounced light (README.md). Of glEnable. */
+#define GL_BOUNCED_LIGHT_LMB                         0x4C4D42
+
 GLAPI void APIENTRY glAccum(GLenum op, GLfloat value);
 GLAPI void APIENTRY glActiveTexture(GLenum texture);
 GLAPI void APIENTRY glActiveTextureARB(GLenum texture);
