@@ -466,8 +466,7 @@ static void divide_entry(cutter *c, int32_t i, uint64_t visible, int asks)
 
 static int has_room(const cutter *c)
 {
-    const int32_t most = LMB_MAX_CUT > SPENT_TILE_NODES && is_spent(c) ? SPENT_TILE_NODES : LMB_MAX_CUT;
-    return c->cut->count + 3 <= most;
+    return c->cut->count + 3 <= LMB_MAX_CUT && !(is_spent(c) && c->cut->count > SPENT_TILE_NODES);
 }
 
 /* Largest light of a node with a single visibility test. */
