@@ -69,11 +69,11 @@ typedef struct lmb_segments {
 
 /* Test budget of a bounded tile: the tests it starts with, and those that each call adds, once and for each of its
  * pixels. So the many small calls of a tile with a different triangle at every pixel add about as much as few large
- * ones. On top of 2^18 tests, ordinary scenes need up to 36 for each pixel of their calls at default quality, and 44 at
- * best; 1,000 slivers through one point need 442. When no tests are left, a call adds none, and uses
+ * ones. On top of 2^20 tests, ordinary scenes need up to 32 for each pixel of their calls at default quality, and 34 at
+ * best; 2,000 needles through one point need 66. When no tests are left, a call adds none, and uses
  * LMB_TRAVERSAL_COARSE at most. */
 #define LMB_TRAVERSAL_FIRST  1048576
-#define LMB_TRAVERSAL_EACH   64
+#define LMB_TRAVERSAL_EACH   48
 #define LMB_TRAVERSAL_COARSE 64
 
 /* State of traversals, one for each thread. It remembers the triangles that blocked most recently, because they often

@@ -3,6 +3,7 @@
 
 #include "../base/vec.h"
 #include "../direct/light_tile.h"
+#include "../occlusion/traversal.h"
 #include "../raster/plane.h"
 #include "../raster/tile.h"
 #include "../raster/triangle.h"
@@ -11,6 +12,42 @@
 
 /* SHOW_IRRADIANCE shows the irradiance, without albedo. */
 static void show_irradiance(lmb_radiance *out, const lmb_irradiance *e) { memcpy(out->rgb, e->rgb, sizeof out->rgb); }
+
+#if LMB_FACETS
+
+enum { MAX_ALONE = 2 /* pixels of a tile that a light reaches on their own */ };
+
+/* The corner of a room may be smaller than a texel of a shadow map, and the texel then shows what lies behind the room.
+ * So where a light reaches hardly any pixel of a tile, segments decide. before: the light without this one. */
+NOINLINE void leave_out_leaks(lmb_band_scratch *s, const lmb_frame *f, const lmb_light *light, const lmb_tile *tile,
+                              const lmb_view *view, const lmb_irradiance *before)
+{
+    lmb_traversal *t = &s->gather.cut.use.traversal;
+    uint64_t lit = 0, dark;
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        lit |= (uint64_t)(s->direct.rgb[0][k] != before->rgb[0][k] || s->direct.rgb[1][k] != before->rgb[1][k] ||
+                          s->direct.rgb[2][k] != before->rgb[2][k])
+               << k;
+    }
+    if (lit == 0 || count_bits_64(lit) > MAX_ALONE) {
+        return;
+    }
+    traversal_bound(t);
+    t->eye_kind = view->kind == LMB_PERSPECTIVE ? LMB_EYE_PLACE : LMB_EYE_FAR;
+    t->eye = view->kind == LMB_PERSPECTIVE ? view->eye : view->back;
+    dark = light->kind == LMB_LIGHT_DIRECTIONAL
+               ? lmb_occluded_sun(f->kernels, t, &f->bvh, tile, lit, normalize3(mul3(light->direction, -1.0f)))
+               : lmb_occluded_tile(f->kernels, t, &f->bvh, tile, lit, light->position,
+                                   lmb_tile_noise(tile, lit) + lmb_place_noise(light->position, 0.0f));
+    for (uint64_t bits = dark; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        for (int c = 0; c < 3; ++c) {
+            s->direct.rgb[c][k] = before->rgb[c][k];
+        }
+    }
+}
+
+#endif
 
 lmb_status lmb_render_direct(const lmb_render *r, lmb_glossy *glossy, lmb_band_scratch *s, const lmb_tile *tile,
                              const lmb_view *view)
@@ -21,9 +58,18 @@ lmb_status lmb_render_direct(const lmb_render *r, lmb_glossy *glossy, lmb_band_s
     lmb_status status = LMB_OK;
     memset(&s->direct, 0, sizeof s->direct);
     for (uint32_t i = 0; requires_direct(f) && i < f->scene->light_count && status == LMB_OK; ++i) {
-        if (!light_is(r, i, LMB_LIGHT_DARK)) {
-            status = lmb_light_tile_add(&s->direct, glossy, &s->indirect, &lit, i, &r->maps[i]);
+        if (light_is(r, i, LMB_LIGHT_DARK)) {
+            continue;
         }
+#if LMB_FACETS
+        if (glossy == NULL && requires_bvh(f) && f->bvh.node_count > 0) {
+            s->indirect = s->direct;
+            status = lmb_light_tile_add(&s->direct, NULL, NULL, &lit, i, &r->maps[i]);
+            leave_out_leaks(s, f, &f->scene->lights[i], tile, view, &s->indirect);
+            continue;
+        }
+#endif
+        status = lmb_light_tile_add(&s->direct, glossy, &s->indirect, &lit, i, &r->maps[i]);
     }
     if (requires_many_lights(f) && status == LMB_OK) {
         query.many_lights = f->many_lights;

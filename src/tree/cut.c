@@ -26,6 +26,7 @@
 #define STAND_OFF          4.0f  /* times the noise: offset of a texel's point towards the light */
 #define LARGE_NOISE        1.5258789e-5f /* 2^-16 of the distance to the eye: the origin is then 64 times as far away */
 #define SPENT_TILE_FACTOR     8.0  /* factor on the allowed light and error in a tile that has used up the tests */
+#define SPENT_TILE_NODES      2048 /* maximum of nodes there */
 #define MAX_SPLIT_ERROR_SHARE 0.7  /* a split of the pixels must reduce the error to this share to be worth the cuts */
 #define FACETS_NEAR        3.0f /* times LMB_NEAR and half the diagonal of a cell: nearer texels show facets */
 enum { LEAF_PARTS_A_SIDE = 4 /* for a lobe, a near leaf is LEAF_PARTS_A_SIDE x LEAF_PARTS_A_SIDE parts */ };
@@ -193,8 +194,9 @@ static double counted_error(const cutter *c, int32_t i)
 }
 
 /* 1 if the tile has used up the visibility tests. Tested nodes are then no longer split, nodes may carry more light and
- * error, and pixels that share a cut stay together. Anything else needs more tests, and light that triangles chop up
- * would need many nodes even without tests. A conservative bound holds in every tile. */
+ * error, a cut has at most SPENT_TILE_NODES, and pixels that share a cut stay together. Anything else needs more tests,
+ * and light that triangles chop up would need many nodes even without tests. A conservative bound holds in every
+ * tile. */
 static int is_spent(const cutter *c) { return !c->cut_params->conservative && c->cut->use.traversal.left < 0; }
 
 static double allowed_error(const cutter *c)
@@ -445,7 +447,10 @@ static void divide_entry(cutter *c, int32_t i, uint64_t visible, int asks)
     }
 }
 
-static int has_room(const cutter *c) { return c->cut->count + 3 <= LMB_MAX_CUT; }
+static int has_room(const cutter *c)
+{
+    return c->cut->count + 3 <= LMB_MAX_CUT && !(is_spent(c) && c->cut->count > SPENT_TILE_NODES);
+}
 
 /* Largest light of a node with a single visibility test. */
 static double allowed_upper(const cutter *c, double lower)
@@ -1017,7 +1022,7 @@ static int light_together(lmb_irradiance *inout, cutter *c, lmb_pixel_cluster *p
         *over = now;
         return 0;
     }
-    if (now > 0.0 && cut_params->stats != NULL) {
+    if (now > 0.0 && cut_params->stats != NULL && !(LMB_MAX_CUT > SPENT_TILE_NODES && is_spent(c))) {
         ++cut_params->stats->full_cuts;
     }
     light_cluster(inout, c);

@@ -109,4 +109,35 @@ status 2 render many.gltf --many-lights 0 -o bad.pfm
 status 2 render many.gltf --light-error 0 -o bad.pfm
 check "nothing is left behind" none bad* nowhere* *tmp*
 
+# A closed room, turned, under a lamp outside. At one of its corners the shadow map shows the ground behind the room.
+cat >closed.obj <<EOF
+v -0.831321061 2.95186472 -2.02455735
+v -1.93729246 -0.915264666 -2.98540139
+v 2.25978637 -2.89397454 0.147342309
+v 3.3657577 0.973154902 1.10818624
+v -3.3657577 -0.973154902 -1.10818624
+v -2.25978637 2.89397454 -0.147342309
+v 1.93729246 0.915264666 2.98540139
+v 0.831321061 -2.95186472 2.02455735
+v -20 -4.13534546 20
+v 20 -4.13534546 20
+v 20 -4.13534546 -20
+v -20 -4.13534546 -20
+f 1 2 3 4
+f 5 6 7 8
+f 5 8 3 2
+f 7 6 1 4
+f 7 4 3 8
+f 1 6 5 2
+f 9 10 11 12
+EOF
+for samples in 4 16; do
+    status 0 render closed.obj --eye -0.588447849,-0.156395245,0.111647998 \
+        --target -0.0166343277,0.556149825,0.518229872 --up 0.748557762,-0.250371547,-0.613983196 --fov 85.9436693 \
+        --light point:-5.01398017,4.4383184,-0.221688962:0,-1,0:200,200,200 --world none --size 96x96 \
+        --samples $samples -o closed.pfm
+    status 0 info closed.pfm
+    check "$samples samples: light in the corner of a closed room" holds 'red   min 0             max 0 ' out.txt
+done
+
 finish

@@ -342,6 +342,40 @@ static void test_formats(void)
     CHECK(lmb_texture_format_bytes(3, 5, 3, 2) == 0 && lmb_texture_format_bytes(LMB_TEXELS_PALETTE4, 5, 3, 9) == 0);
 }
 
+/* The smallest level shows from afar: its colour is in the palette, even if the texture's own colours, and those of the
+ * large levels, fill it. */
+static void test_palette_from_afar(void)
+{
+    enum { WIDE_T = 97, HIGH_T = 41, MOST = 4 * WIDE_T * HIGH_T * 2 };
+    static uint8_t rgba[MOST];
+    for (int kind = 0; kind < 3; ++kind) { /* bright stripes at two edges; those over a gradient; two colours */
+        pack_buffer out = {NULL, 0, 0, 0};
+        lmb_texture t;
+        memset(&t, 0, sizeof t);
+        memset(rgba, 0, sizeof rgba);
+        t.width = WIDE_T;
+        t.height = HIGH_T;
+        t.levels = lmb_texture_level_count(WIDE_T, HIGH_T);
+        t.texels = rgba;
+        for (int i = 0; i < WIDE_T * HIGH_T; ++i) {
+            const int x = i % WIDE_T, y = i / WIDE_T;
+            const uint8_t dark = (uint8_t)(kind == 1 ? x / 3 : 10);
+            const uint8_t code[4] = {x >= 64 ? 255 : dark, kind < 2 && y >= 28 ? 255 : dark, 40, 255};
+            memcpy(rgba + 4 * i, code, sizeof code);
+        }
+        CHECK(lmb_texture_mips(rgba, t.width, t.height, t.levels) == LMB_OK);
+        const double off = pack_encode(&out, &t, LMB_TEXELS_PALETTE4, 0);
+        const size_t bytes = lmb_texture_format_bytes(LMB_TEXELS_PALETTE4, t.width, t.height, t.levels);
+        const uint8_t *mean = rgba + lmb_texture_bytes(t.width, t.height, t.levels) - 4;
+        CHECK_MSG(out.data != NULL && off >= 0.0 && off < 6.0, "case %d: %g", kind, off);
+        for (int k = 0; out.data != NULL && k < 3; ++k) {
+            const int shown = out.data[4 * (out.data[bytes - 1] & 15) + k];
+            CHECK_MSG(abs(shown - mean[k]) <= 6, "case %d channel %d: %d for %d", kind, k, shown, mean[k]);
+        }
+        free(out.data);
+    }
+}
+
 /* A picture with packed formats equals that with the decoded RGBA8 codes: through kernels, levels and holes. */
 static void test_formats_drawn(void)
 {
@@ -758,6 +792,7 @@ void test_pack(void)
     test_no_scale();
     test_spans();
     test_formats();
+    test_palette_from_afar();
     test_formats_drawn();
     test_demo();
     test_no_cracks();

@@ -10,6 +10,7 @@
 
 enum { NEEDLES, PLANES, SPECKS, BALLS, HAIR, SLIVERS, ALL_HOLES, HALF_HOLES, SCENES, ROOM = SCENES, STACK };
 enum { TRIANGLES = 2000, MANY = 12000, CALLS = 100, MANY_CALLS = 300, BOXES = TRIANGLES / 12, SIDE = 4 };
+enum { PICTURE = 16 /* px a side */, MAP = 256 };
 
 /* A random rotation, or the identity. */
 typedef struct frame {
@@ -157,6 +158,40 @@ static counted tests(hard_stage *s, int scene, int is_turned, int bounded)
     return r;
 }
 
+/* Bounced light of a small picture: the pixels times the nodes that light them, and the segments tested. */
+static double picture_work(hard_stage *s, int scene)
+{
+    uint64_t rng = 41;
+    const frame f = frame_of(1, &rng);
+    const uint64_t before = s->stats.pairs + s->stats.segments;
+    if (!make_scene(s, scene, TRIANGLES, &f, &rng)) {
+        return HUGE_VAL;
+    }
+    hard_point(s, dvec_of(0.3, 1.7, 0.2), 10.0);
+    hard_end(s);
+    hard_look(s, dvec_of(0.3, 0.2, 1.8), dvec_of(0.3, 0.2, 0), 70.0, PICTURE);
+    return hard_frame(s, LMB_SHOW_INDIRECT, MAP, 0.02f) == LMB_OK
+               ? (double)(s->stats.pairs + s->stats.segments - before)
+               : HUGE_VAL;
+}
+
+/* Pixels of needles lie on as many surfaces, each lit by nodes of its own. */
+static void put_pictures(hard_list *list)
+{
+    static const struct {
+        int scene;
+        const char *name;
+        double bound;
+    } row[] = {{NEEDLES, "2,000 needles: light and visibility of a picture, of a room's", 0.5},
+               {HAIR, "2,000 hairs: light and visibility of a picture, of a room's", 0.4},
+               {HALF_HOLES, "1,000 quads with holes: light and visibility of a picture, of a room's", 0.11}};
+    const double room = picture_work(list->stage, ROOM);
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; ++i) {
+        hard_put(list, HARD_MEASURED, row[i].name, hard_share(picture_work(list->stage, row[i].scene), room),
+                 row[i].bound, "times");
+    }
+}
+
 void hard_cliff(hard_list *list)
 {
     static const char *const name[SCENES][2] = {
@@ -185,4 +220,5 @@ void hard_cliff(hard_list *list)
              tests(list->stage, STACK, 0, 1).each, limit, "tests");
     hard_put(list, HARD_EXACT, "a room: coarse calls of a bounded tile", (double)tests(list->stage, ROOM, 1, 1).coarse,
              0, "calls");
+    put_pictures(list);
 }

@@ -69,7 +69,8 @@ int pack_order(uint32_t *index, uint32_t triangles, uint32_t vertices);
 uint64_t pack_fetched(const uint32_t *index, uint32_t triangles, uint32_t *scratch, uint32_t vertices);
 
 /* pack_encode: appends a texture's levels, RGBA8, in another format to `out`. Returns the rms error of the codes, of
- * 255, over level 0; it includes alpha if `alpha` is set. Returns a negative number if memory is short. */
+ * 255, over level 0, or half of that over another level, if that is larger; it includes alpha if `alpha` is set.
+ * Returns a negative number if memory is short. */
 double pack_encode(pack_buffer *out, const lmb_texture *t, int format, int alpha);
 
 /* pack_file: makes the file, in this machine's byte order. pack_swap: converts it to the other byte order. */

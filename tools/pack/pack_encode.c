@@ -68,19 +68,29 @@ static int nearest_of(const bunch *palette, int count, const int *colour, int64_
     return best;
 }
 
-/* Sorts texels into cells of 32 x 32 x 32 colours, separately for each half of alpha. Returns the number of cells with
- * texels, which come first. */
-static int find_cells(bunch *cell, const uint8_t *rgba, size_t texels, int alpha)
+/* Texels of a level. */
+static size_t level_texels(const lmb_texture *t, int32_t level)
 {
+    return (size_t)(t->width >> level > 1 ? t->width >> level : 1) *
+           (size_t)(t->height >> level > 1 ? t->height >> level : 1);
+}
+
+/* Sorts the texels of all levels into cells of 32 x 32 x 32 colours, separately for each half of alpha. Each level
+ * counts as much as the largest one: from afar its few texels are the whole picture. Returns the number of cells with
+ * texels, which come first. */
+static int find_cells(bunch *cell, const lmb_texture *t, int alpha)
+{
+    const uint8_t *p = t->texels;
     int count = 0;
-    for (size_t i = 0; i < texels; ++i) {
-        const uint8_t *p = rgba + 4 * i;
-        const int a = alpha ? p[3] : 255;
-        bunch *c = &cell[(((a >> 7) << BITS | p[0] >> 3) << BITS | p[1] >> 3) << BITS | p[2] >> 3];
-        for (int k = 0; k < 4; ++k) {
-            c->sum[k] += k < 3 ? p[k] : a;
+    for (int32_t level = 0; level < t->levels; ++level) {
+        for (size_t i = level_texels(t, level); i > 0; --i, p += 4) {
+            const int a = alpha ? p[3] : 255;
+            bunch *c = &cell[(((a >> 7) << BITS | p[0] >> 3) << BITS | p[1] >> 3) << BITS | p[2] >> 3];
+            for (int k = 0; k < 4; ++k) {
+                c->sum[k] += (int64_t)(k < 3 ? p[k] : a) << 2 * level;
+            }
+            c->count += (int64_t)1 << 2 * level;
         }
-        ++c->count;
     }
     for (int i = 0; i < CELLS; ++i) {
         if (cell[i].count > 0) {
@@ -155,9 +165,9 @@ static int own_colours(bunch *palette, const uint8_t *rgba, size_t texels, int a
     return count;
 }
 
-static int make_palette(bunch *palette, const uint8_t *rgba, size_t texels, int alpha)
+static int make_palette(bunch *palette, const lmb_texture *t, int alpha)
 {
-    int count = own_colours(palette, rgba, texels, alpha);
+    int count = own_colours(palette, t->texels, lmb_texture_bytes(t->width, t->height, t->levels) / 4, alpha);
     if (count > 0) {
         return count;
     }
@@ -165,7 +175,7 @@ static int make_palette(bunch *palette, const uint8_t *rgba, size_t texels, int 
     if (cell == NULL) {
         return 0;
     }
-    const int cells = find_cells(cell, rgba, texels, alpha);
+    const int cells = find_cells(cell, t, alpha);
     count = first_colours(palette, cell, cells);
     refine(palette, count, cell, cells);
     free(cell);
@@ -192,19 +202,19 @@ static int64_t put_level(pack_buffer *out, const bunch *palette, int count, cons
     return error;
 }
 
-/* Encodes all levels into one block, because levels start at any byte and pack_put adds zeros. */
-static int64_t put_palette4(pack_buffer *out, const lmb_texture *t, int alpha)
+/* Encodes all levels into one block, because levels start at any byte and pack_put adds zeros. Returns the root of the
+ * mean square error of the first level, or half of that of another level, if that is larger; -1 if memory is short. */
+static double put_palette4(pack_buffer *out, const lmb_texture *t, int alpha)
 {
-    const size_t texels = lmb_texture_bytes(t->width, t->height, t->levels) / 4;
     const size_t bytes = lmb_texture_format_bytes(LMB_TEXELS_PALETTE4, t->width, t->height, t->levels);
     bunch palette[COLOURS];
     pack_buffer own = {NULL, 0, 0, 0};
-    int64_t error = -1;
+    double worst = 0.0;
     memset(palette, 0, sizeof palette);
-    const int count = make_palette(palette, t->texels, texels, alpha);
+    const int count = make_palette(palette, t, alpha);
     own.data = count > 0 ? malloc(bytes) : NULL;
     if (own.data == NULL) {
-        return -1;
+        return -1.0;
     }
     for (int i = 0; i < COLOURS; ++i) {
         for (int k = 0; k < 4; ++k) {
@@ -213,22 +223,22 @@ static int64_t put_palette4(pack_buffer *out, const lmb_texture *t, int alpha)
     }
     const uint8_t *from = t->texels;
     for (int32_t level = 0; level < t->levels; ++level) {
-        const size_t wide = (size_t)(t->width >> level > 1 ? t->width >> level : 1),
-                     high = (size_t)(t->height >> level > 1 ? t->height >> level : 1);
-        const int64_t off = put_level(&own, palette, count, from, wide * high, alpha);
-        error = level == 0 ? off : error;
-        from += 4 * wide * high;
+        const size_t texels = level_texels(t, level);
+        const int64_t off = put_level(&own, palette, count, from, texels, alpha);
+        const double rms = sqrt((double)off / (double)texels / (alpha ? 4.0 : 3.0));
+        worst = fmax(worst, level == 0 ? rms : 0.5 * rms);
+        from += 4 * texels;
     }
     pack_put(out, own.data, own.size);
     free(own.data);
-    return error;
+    return worst;
 }
 
 double pack_encode(pack_buffer *out, const lmb_texture *t, int format, int alpha)
 {
-    const size_t texels = lmb_texture_bytes(t->width, t->height, t->levels) / 4,
-                 judged = (size_t)t->width * (size_t)t->height;
-    const int64_t error =
-        format == LMB_TEXELS_RGB565 ? put_rgb565(out, t->texels, texels, judged) : put_palette4(out, t, alpha);
-    return error < 0 ? -1.0 : sqrt((double)error / (double)judged / (alpha ? 4.0 : 3.0));
+    const size_t texels = lmb_texture_bytes(t->width, t->height, t->levels) / 4, judged = level_texels(t, 0);
+    if (format == LMB_TEXELS_PALETTE4) {
+        return put_palette4(out, t, alpha);
+    }
+    return sqrt((double)put_rgb565(out, t->texels, texels, judged) / (double)judged / 3.0);
 }

@@ -54,7 +54,8 @@ static const option_row rows[] = {
              "one for all. Other maps are rgba8, and those with holes are not rgb565"},
     {.name = "--texture-error", .value = "CODES", .kind = OPTION_NUMBER, AT(texture_error), .low = 0.0, .high = 255.0,
      .counts = offsetof(options, texture_given),
-     .help = "maximum error of a texture's codes, of 255, as the root of the mean square (default 3)"},
+     .help = "maximum error of a texture's codes, of 255, as the root of the mean square; twice as "
+             "much in the smaller levels, which show from afar (default 3)"},
     {.name = "--glossy", .kind = OPTION_FLAG, AT(is_glossy),
      .help = "keeps the highlights of glTF's metals and smooth materials"},
     {.name = "--endian", .kind = OPTION_WORD, AT(is_big), .words = endians,
