@@ -222,6 +222,11 @@ const option_row render_bounce_rows[] = {
                   "with 64 segments each (draft: 32): the fastest, for moving light. Default: full; from 65,536 "
                   "pixels on, except with best: live for --quality draft, for `play` and for many lights, unless "
                   "you give --error, --visibility, --tree or a budget; otherwise adaptive under a sky")},
+#if LMB_LIVE
+    {.name = "--steady", .kind = OPTION_FLAG, AT(is_steady),
+     .help = HELP("with --gather live: bounced light flickers less while lights or the camera move, for about half as "
+                  "much time again")},
+#endif
     {.kind = OPTION_END},
 };
 
