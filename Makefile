@@ -687,7 +687,7 @@ measure-front: $(TOOL) ## speed against error of gathered light, baked light and
 measure-lights: $(TOOL) $(B)/measure-lights ## baked light with twenty lights that were not there during baking (SCENES, LMT=folder)
 	@$(IN_SH) tests/measure/lights.sh
 
-measure-steady: $(TOOL) $(B)/measure-steady ## baked light that moves: steps, pops, shifts (SCENES, ONLY=halving)
+measure-steady: $(TOOL) $(B)/measure-steady ## baked light that moves: steps, pops, shifts (SCENES, ONLY=halving); ONLY=bend: live light
 	@$(IN_SH) tests/measure/steady.sh
 
 scenes: $(B)/scenes ## a program that makes scenes from a name and a seed (scenes --list)

@@ -40,6 +40,7 @@
 #define LMB_LIVE_KEPT   128  /* such chunks that are kept for other points */
 #define LMB_LIVE_FACETS 32   /* facets of near parts that are kept */
 #define LMB_LIVE_STRATA 64   /* maximum number of segments of a point */
+#define LMB_LIVE_PICKS  512  /* maximum number of segments of a steady point */
 #define LMB_LIVE_STACK  256  /* BVH nodes on the stack */
 #define LMB_LIVE_LAST   4    /* triangles that blocked many segments recently */
 #define LMB_LIVE_SKY    64   /* maximum number of chunks of a sky */
@@ -74,7 +75,7 @@ typedef struct lmb_live_target {
     uint32_t id;           /* the triangle */
 } lmb_live_target;
 
-/* Sixteen nodes side by side. 1,536 bytes. A node with `count` 0 has no parts. The parts of a node with LMB_LIVE_LEAF
+/* Sixteen nodes side by side. 1,600 bytes. A node with `count` 0 has no parts. The parts of a node with LMB_LIVE_LEAF
  * are the first points first .. first + count - 1; those of other nodes are nodes: `first` is 16 times a chunk plus a
  * lane. */
 typedef struct lmb_live_chunk {
@@ -85,6 +86,8 @@ typedef struct lmb_live_chunk {
                                       spacing */
     float colour[3][LMB_LIVE_NODES]; /* flux by power */
     uint32_t first[LMB_LIVE_NODES], count[LMB_LIVE_NODES];
+    float threshold[LMB_LIVE_NODES]; /* 0 .. 1, from the cell of the world and the side: decides when a steady point
+                                        traces a segment to the node */
     lmb_live_target target[LMB_LIVE_NODES]; /* the first point nearest to `place`, with the node's colour */
 } lmb_live_chunk;
 #define LMB_LIVE_LEAF 0x80000000u /* in `count` */
@@ -128,6 +131,8 @@ typedef struct lmb_live {
     uint32_t merged;        /* nodes that are not divided because memory ran out: used whole until a point is near */
     int32_t side;           /* blocks a side of a face, at most */
     int32_t strata;         /* 1 .. LMB_LIVE_STRATA; default 64 */
+    int32_t steady;         /* 1: lights and receivers may move a little without a jump of the light, for about twice
+                               as many segments; set it before lmb_live_build. Default 0 */
     double sent[3];         /* flux of the maps' first points, W */
     float split;            /* a node is divided at points nearer than sqrt(split) times the radius; default 16 */
 } lmb_live;
@@ -157,13 +162,20 @@ typedef struct lmb_live_facet {
     lmb_vec3 corner, normal, side[2], along[2];
 } lmb_live_facet;
 
+/* A target of a steady point: a node, and the strata of light that it stands for. */
+typedef struct lmb_live_pick {
+    const lmb_live_chunk *chunk;
+    int32_t lane;
+    float weight;
+} lmb_live_pick;
+
 /* A BVH node on the stack, and the segments that hit it. */
 typedef struct lmb_live_branch {
     uint64_t rays;
     uint32_t node;
 } lmb_live_branch;
 
-/* Scratch, one a thread: 403 KiB. The contents are undefined between calls, except `full`, `segments` and `pairs`,
+/* Scratch, one a thread: 425 KiB. The contents are undefined between calls, except `full`, `segments` and `pairs`,
  * which are added to until you zero them, and `whole`, `seen`, `sky_...`, which are those of the last point. */
 typedef struct lmb_live_scratch {
     lmb_live_chunk near[LMB_LIVE_KEPT + LMB_LIVE_NEAR]; /* kept ones first */
@@ -183,6 +195,8 @@ typedef struct lmb_live_scratch {
     uint32_t leaf[LMB_LIVE_CUT];               /* near nodes without nodes below: 16 times the chunk's index */
     int32_t leaves;                            /* in the cut, plus the lane */
     int32_t targets, is_full;
+    int32_t picks;
+    lmb_live_pick pick[LMB_LIVE_PICKS];
     lmb_vec3 off;      /* m: offset away from a concave edge that the receiver lies in, */
     float lift;        /* and how far `off` moves it from the other surface there, m; 0: no such edge */
     lmb_live_rays rays;
@@ -204,8 +218,8 @@ extern "C" {
  * 8 if there would be over 2^18 blocks in all. */
 int32_t lmb_live_side(uint32_t faces, int32_t size);
 
-/* lmb_live_bytes: memory for `faces` faces of side x side blocks and 0 .. 2^24 elements; 0 if that is impossible. 360
- * bytes a block, 240 an element.
+/* lmb_live_bytes: memory for `faces` faces of side x side blocks and 0 .. 2^24 elements; 0 if that is impossible. 365
+ * bytes a block, 245 an element.
  * lmb_live_init: lay out a tree in it, aligned as for a uint64_t. Returns LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN or
  * LMB_ERR_CAPACITY. */
 size_t lmb_live_bytes(uint32_t faces, int32_t side, uint32_t elements);

@@ -189,6 +189,8 @@ typedef struct lmb_frame_settings {
     int32_t gather_step;    /* lmb_frame's; 0: 1 */
     int32_t samples;        /* lmb_frame's; 0: 1 */
     uint32_t points;        /* LMB_QUALITY_FIXED: first points. 0: four a block of texels, the maximum */
+    int32_t steady;         /* 1: with LMB_GATHER_LIVE, bounced light changes more evenly while lights or the camera
+                               move, for about twice as many segments: lmb_live.steady */
     int32_t id_format;      /* 0: LMB_ID16 for scenes under 65,536 triangles, else LMB_ID32 */
 } lmb_frame_settings;
 

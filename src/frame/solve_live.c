@@ -55,6 +55,7 @@ static lmb_status live_place(lmb_frame *f, const lmb_frame_settings *s, frame_bl
     if (suns > 0) {
         f->live_sky->strata = few ? LMB_LIVE_STRATA / 2 : LMB_LIVE_STRATA;
     }
+    f->live->steady = s->steady;
     f->live->split = s->quality == LMB_QUALITY_DRAFT ? 8.0f : 16.0f;
     return status;
 }

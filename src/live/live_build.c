@@ -7,6 +7,8 @@
 
 #include <string.h>
 
+#include "../raster/triangle.h"
+
 #if LMB_LIVE
 
 enum {
@@ -34,6 +36,8 @@ typedef struct builder {
     lmb_live *live;
     lmb_vec3 low;
     float per_cell, extent; /* 1 / m; m, of the world */
+    int shift;              /* of keys, to the cells of the current level */
+    int is_fine;            /* the cells are those of a node's own box */
     uint32_t slots;         /* used: 16 times a chunk plus a lane */
 } builder;
 
@@ -269,6 +273,77 @@ static float area_of(float *mean, const lmb_live_point *p, uint32_t count)
     return largest;
 }
 
+/* Spreads the bits of a cell's number to every second bit. */
+static uint32_t spread_by_two(uint32_t v)
+{
+    v = (v | v << 8) & 0x00ff00ffu;
+    v = (v | v << 4) & 0x0f0f0f0fu;
+    v = (v | v << 2) & 0x33333333u;
+    return (v | v << 1) & 0x55555555u;
+}
+
+/* The threshold of a cell and side. Cells beside each other on a plane of that side differ most, so that the nodes that
+ * are targets spread evenly. */
+static float threshold_of(const builder *b, const lmb_live_point *p)
+{
+    const uint32_t side = side_of(p->normal), axis = side / 2, z = b->is_fine ? p->key : place_key(b, p->position);
+    const int level = b->shift / 3;
+    uint32_t cell[3] = {0, 0, 0};
+    for (int i = 0; i < 27; ++i) {
+        cell[i % 3] |= (z >> i & 1u) << i / 3;
+    }
+    for (int h = 0; h < 3; ++h) {
+        cell[h] >>= level;
+    }
+    return live_threshold(spread_by_two(cell[(axis + 1) % 3]) | spread_by_two(cell[(axis + 2) % 3]) << 1,
+                          live_hash(cell[axis], side, (uint32_t)level));
+}
+
+#define REST 0.35f /* of 0.5: the share of each third of a cell that counts as the middle of the third */
+
+/* Where 0 .. 1 along a cell is: the middles of its thirds attract, without a jump. */
+static float at_rest(float v)
+{
+    const float third = floorf(3.0f * v), off = 3.0f * v - third - 0.5f;
+    const float over = maxf(absf(off) - REST, 0.0f) * (0.5f / (0.5f - REST));
+    return (third + 0.5f + (off < 0.0f ? -over : over)) * (1.0f / 3.0f);
+}
+
+/* Sets the target of a steady node. First points move with the light. So the target is a place of the cell near the
+ * node's place, as far as there are points around it: it lies on the triangle of the nearest point, and at most three
+ * quarters of the point's width off it, so in the lit block. */
+static void steady_target(lmb_live_target *t, const builder *b, const lmb_live_point *p, uint32_t count,
+                          lmb_vec3 place, lmb_vec3 normal)
+{
+    const float side = b->extent * (float)(1u << b->shift / 3) / (float)CELLS;
+    const lmb_vec3 from = mul3(sub3(p->position, b->low), 1.0f / side),
+                   low = add3(b->low, mul3(vec3(floorf(from.x), floorf(from.y), floorf(from.z)), side)),
+                   in = mul3(sub3(place, low), 1.0f / side);
+    const lmb_vec3 rest = add3(low, mul3(vec3(at_rest(in.x), at_rest(in.y), at_rest(in.z)), side)),
+                   wanted = sub3(rest, mul3(normal, dot3(normal, sub3(rest, place))));
+    const lmb_live_point *near = p;
+    float near2 = 3e38f;
+    for (uint32_t k = 0; k < count; ++k) {
+        const lmb_vec3 d = sub3(p[k].position, wanted);
+        const float d2 = dot3(d, d);
+        if (p[k].face != LMB_LIVE_ELEMENT && d2 < near2) {
+            near = &p[k];
+            near2 = d2;
+        }
+    }
+    if (near->face == LMB_LIVE_ELEMENT) {
+        return;
+    }
+    const lmb_vec3 to = sub3(wanted, near->position), along = sub3(to, mul3(near->normal, dot3(near->normal, to)));
+    const float far = length3(along), max = 0.75f * sqrtf(near->area);
+    const lmb_vec3 at = lmb_place_onto_triangle(
+        b->live->scene, near->id, add3(near->position, far > max ? mul3(along, max / far) : along));
+    const float position[3] = {at.x, at.y, at.z}, facet[3] = {near->normal.x, near->normal.y, near->normal.z};
+    memcpy(t->at, position, sizeof position);
+    memcpy(t->facet, facet, sizeof facet);
+    t->id = near->id;
+}
+
 /* Stores a point as a node: what put_node computes for one point. */
 static void put_point(const builder *b, uint32_t slot, uint32_t first)
 {
@@ -284,6 +359,7 @@ static void put_point(const builder *b, uint32_t slot, uint32_t first)
     c->radius2[i] = lmb_live_reach2(b->live, p) * lmb_live_softness(b->live, p);
     c->first[i] = first;
     c->count[i] = LMB_LIVE_LEAF | 1u;
+    c->threshold[i] = b->live->steady ? threshold_of(b, p) : 0.0f;
 }
 
 /* Stores points of one plane as a node. */
@@ -330,6 +406,10 @@ static void put_node(const builder *b, uint32_t slot, range r)
     c->radius2[i] = (far2 + maxf(spacing2, own2)) * soft;
     c->first[i] = r.first;
     c->count[i] = count | LMB_LIVE_LEAF;
+    c->threshold[i] = b->live->steady ? threshold_of(b, p) : 0.0f;
+    if (b->live->steady && !b->is_fine && target->face != LMB_LIVE_ELEMENT) {
+        steady_target(&c->target[i], b, p, count, place, normal);
+    }
 }
 
 /* Allocates a node's parts, in a new chunk if they would straddle two. Returns NOBODY if none is left. */
@@ -373,6 +453,7 @@ static void divide(builder *b, uint32_t slot, int shift)
     const uint32_t past = c->first[i] + (c->count[i] & ~LMB_LIVE_LEAF);
     range part[PARTS + 1]; /* the last cell's planes may fill the array, and the rest follows */
     uint32_t parts = 0;
+    b->shift = shift;
     for (range r = {c->first[i], 0}; r.first < past; r.first = r.past) {
         r.past = parts + GROUPS > PARTS ? past : run_past(b->live->sorted, r.first, past, shift);
         if (parts + GROUPS > PARTS) {
@@ -463,6 +544,7 @@ static int divide_crowds(builder *b, uint32_t past)
 /* A house on a wide terrain lies in a few cells. Nodes that still have many points are divided by finer cells. */
 static void divide_fine(builder *b)
 {
+    b->is_fine = 1;
     for (int round = 0; round < ROUNDS; ++round) {
         const uint32_t past = b->slots = whole_chunks(b->slots);
         if (!divide_crowds(b, past)) {
@@ -490,6 +572,7 @@ static void put_top(builder *b)
         }
     }
     shift -= 3;
+    b->shift = shift;
     for (uint32_t i = 0, past; i < live->points; i = past) {
         range part[GROUPS];
         past = run_past(live->sorted, i, live->points, shift);

@@ -89,6 +89,12 @@ static lmb_live_chunk *take(lmb_live_scratch *s, int *lane)
 
 static uint32_t part_of(uint32_t level, uint32_t x, uint32_t y) { return (level << PART_BITS | x) << PART_BITS | y; }
 
+/* A number of a point's part that does not depend on other points. */
+static uint32_t part_number(const lmb_live_point *p, uint32_t part)
+{
+    return live_hash(live_element_of(p), p->face, part);
+}
+
 /* Light of later bounces is smooth and a small part of the total. With half the radius, the errors of Cornell and the
  * corridor change by .003 and .001, and samples take a third of the time. */
 #define SOFT 0.25f
@@ -123,6 +129,7 @@ static void put_points(lmb_live_scratch *s, const lmb_live *live, uint32_t first
         c->radius2[i] = lmb_live_reach2(live, p) * lmb_live_softness(live, p);
         c->first[i] = k;
         c->count[i] = whole ? 0 : LMB_LIVE_LEAF | 1u;
+        c->threshold[i] = live_threshold(part_number(p, 0), 0);
         s->part[LMB_LIVE_KEPT + s->near_count - 1][i] = part_of(0, 0, 0);
     }
 }
@@ -266,9 +273,9 @@ static int32_t slot_of_part(int *found, const lmb_live_scratch *s, uint64_t key)
     return s->keeps && s->kept_for[old] != s->number ? (int32_t)old : LMB_LIVE_KEPT + s->near_count;
 }
 
-/* Stores sixteen parts as chunk k. */
-static void put_whole(lmb_live_scratch *s, int32_t k, const live_parts *p, uint32_t point, uint32_t count,
-                      const live_light *light, const float area[2])
+/* Stores sixteen parts as chunk k. number: of the point. */
+static void put_whole(lmb_live_scratch *s, int32_t k, const live_parts *p, uint32_t point, uint32_t number,
+                      uint32_t count, const live_light *light, const float area[2])
 {
     lmb_live_chunk *c = &s->near[k];
     memcpy(c->place, p->at.place, sizeof c->place);
@@ -279,6 +286,7 @@ static void put_whole(lmb_live_scratch *s, int32_t k, const live_parts *p, uint3
         c->radius2[i] = area[1];
         c->first[i] = point;
         c->count[i] = count;
+        c->threshold[i] = live_threshold(number, p->part[i]);
         c->colour[0][i] = light->colour[0];
         c->colour[1][i] = light->colour[1];
         c->colour[2][i] = light->colour[2];
@@ -319,7 +327,7 @@ static int put_parts(lmb_live_scratch *s, live_look *l, uint32_t point, uint32_t
     const live_light light = live_light_of(flux);
     const uint32_t parts = level < DEEPEST ? LMB_LIVE_LEAF | 1u : 0;
     const float areas[2] = {level < DEEPEST ? LIVE_DISC * area : area, area};
-    put_whole(s, to, &p, point, parts, &light, areas);
+    put_whole(s, to, &p, point, part_number(&l->live->sorted[point], level), parts, &light, areas);
     if (to < LMB_LIVE_KEPT) {
         s->kept[to] = key;
         s->kept_for[to] = s->number;
@@ -389,6 +397,7 @@ static int put_quarters(lmb_live_scratch *s, const lmb_live *live, uint32_t poin
         c->radius2[i] = whole->radius2[lane] * share;
         c->first[i] = point;
         c->count[i] = level < DEEPEST ? LMB_LIVE_LEAF | 1u : 0;
+        c->threshold[i] = live_threshold(part_number(p, level), way << 4 | k);
         s->part[LMB_LIVE_KEPT + s->near_count - 1][i] = level << 2 * PART_BITS | way << 4 | k;
     }
     return 1;

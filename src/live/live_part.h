@@ -14,6 +14,11 @@
 uint64_t lmb_live_blocked(const lmb_kernels *kernels, lmb_live_scratch *scratch, const lmb_bvh *bvh,
                           const lmb_live_receiver *receiver, uint64_t asked);
 
+/* Selects the targets of a steady point, of `all` light. lmb_live_put_steady puts the targets from `first` on into
+ * scratch->rays, at most a packet. */
+void lmb_live_pick_steady(lmb_live_scratch *scratch, const lmb_live *live, float all);
+void lmb_live_put_steady(lmb_live_scratch *scratch, int32_t first);
+
 /* Adds refined nodes to the cut for the near leaves in scratch->leaf. Returns 1 if it added any. */
 int lmb_live_come_near(lmb_live_scratch *scratch, const lmb_kernels *kernels, const lmb_live *live);
 
@@ -148,6 +153,12 @@ static inline uint32_t live_id(const lmb_surface *s, int32_t x, int32_t y)
                              : data + (ptrdiff_t)y * s->stride_bytes + (ptrdiff_t)(x / LMB_TILE * LMB_TILE) * bytes;
     return bytes == 2 ? ((const uint16_t *)(const void *)row)[x % LMB_TILE]
                       : ((const uint32_t *)(const void *)row)[x % LMB_TILE];
+}
+
+/* A threshold, 0 .. 1: those of numbers beside each other differ by the golden ratio. */
+static inline float live_threshold(uint32_t number, uint32_t kind)
+{
+    return (float)((number * 0x9e3779b9u + kind) >> 8) * (1.0f / 16777216.0f);
 }
 
 /* Uniform hash of three numbers. */

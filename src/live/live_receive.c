@@ -71,15 +71,23 @@ static void light_of_tree(float light[3], const lmb_kernels *kernels, lmb_live_s
         light[0] = light[1] = light[2] = 0.0f;
         return;
     }
+    if (live->steady) {
+        lmb_live_pick_steady(s, live, sum);
+        packets = (s->picks + LMB_TILE_PIXELS - 1) / LMB_TILE_PIXELS;
+    }
     for (int packet = 0; packet < packets; ++packet) {
-        kernels->live_targets(s, live, live->strata, place[packet], sum);
+        if (live->steady) {
+            lmb_live_put_steady(s, packet * LMB_TILE_PIXELS);
+        } else {
+            kernels->live_targets(s, live, live->strata, place[packet], sum);
+        }
         const uint64_t asked = kernels->live_ahead(&s->rays, s->targets, at),
                        clear = asked & ~lmb_live_blocked(kernels, s, bvh, at, asked);
         s->segments += (uint64_t)count_bits_64(asked);
         kernels->live_share(all, some, &s->rays, s->targets, clear);
         seen += count_bits_64(clear);
         targets += s->targets;
-        packets = packet == 0 ? packets_of(seen, targets) : packets;
+        packets = packet == 0 && !live->steady ? packets_of(seen, targets) : packets;
     }
     for (int h = 0; h < 3; ++h) {
         s->seen[h] = seen == targets ? 1.0f : all[h] > 0.0f ? some[h] / all[h] : (float)seen / (float)maxi(targets, 1);

@@ -530,6 +530,92 @@ static void same_bytes(void)
     CHECK_MSG(wrong == 0, "%d differ", wrong);
 }
 
+/* --- steady light ------------------------------------------------------------------------------------------------- */
+
+static void build_steady(void)
+{
+    live.steady = 1;
+    CHECK(lmb_live_build(&live, &world.scene) == LMB_OK);
+}
+
+static void steady_light_is_right(void)
+{
+    test_rng r = {5};
+    const lmb_light lights[1] = {point_light(vec3(-0.6f, 1.6f, 0.2f))};
+    room_with_table();
+    light_world(lights, 1);
+    build_steady();
+    live.split = 16.0f;
+    const errors shadows = errors_of(tries(100, 150), vec3(-0.7f, 1.5f, -0.7f), 1, &r);
+    CHECK_MSG(shadows.rms < 0.06 && fabs(shadows.bias) < 0.02, "rms %.4f, bias %.4f", shadows.rms, shadows.bias);
+}
+
+static void steady_bytes(void)
+{
+    const lmb_light lights[1] = {point_light(vec3(-0.6f, 1.6f, 0.2f))};
+    const lmb_kernels *const scalar = lmb_kernels_named("scalar");
+    test_rng r = {12};
+    int wrong = 0;
+    room_with_table();
+    light_world(lights, 1);
+    build_steady();
+    const lmb_kernels *const backends[] = {LMB_BACKENDS(KERNELS_OF_THIS)};
+    for (int i = 0; i < 300; ++i) {
+        const lmb_live_receiver at = place_on(test_random(&r) % world.count, vec3(-0.7f, 1.5f, -0.7f), &r);
+        float plain[3];
+        live.strata = 1 + (int32_t)(test_random(&r) % LMB_LIVE_STRATA);
+        receive(plain, scalar, &at, 1);
+        for (int k = 0; k < COUNT(backends); ++k) {
+            float light[3];
+            if (backends[k] != NULL) {
+                receive(light, backends[k], &at, 1);
+                wrong += memcmp(light, plain, sizeof plain) != 0;
+            }
+        }
+    }
+    CHECK_MSG(wrong == 0, "%d differ", wrong);
+}
+
+enum { BENT = 400, BENDS = 8 };
+
+/* Mean size of the second differences of the light at points, relative to it, as a light moves by small steps. */
+static double bends_of(int is_steady)
+{
+    static float kept[BENDS][BENT];
+    static lmb_live_receiver at[BENT];
+    double bends = 0.0, all = 0.0;
+    test_rng r = {13};
+    for (int t = 0; t < BENDS; ++t) {
+        const lmb_light lights[1] = {
+            spot(vec3(0.6f + 0.001f * (float)t, 1.8f, 0.5f), vec3(-0.5f, -1, -0.4f), 20, 35)};
+        room_with_table();
+        light_world(lights, 1);
+        live.strata = LMB_LIVE_STRATA / 2;
+        if (is_steady) {
+            build_steady();
+        }
+        for (int i = 0; i < BENT; ++i) {
+            float light[3];
+            at[i] = t == 0 ? far_place(vec3(-0.7f, 1.5f, -0.7f), &r) : at[i];
+            receive(light, picked_kernels(), &at[i], 1);
+            kept[t][i] = light[0];
+        }
+    }
+    for (int i = 0; i < BENT * (BENDS - 2); ++i) {
+        const int t = i / BENT + 1, k = i % BENT;
+        bends += fabs((double)kept[t - 1][k] - 2.0 * (double)kept[t][k] + (double)kept[t + 1][k]);
+        all += (double)kept[t][k];
+    }
+    CHECK(all > 0.0);
+    return bends / all;
+}
+
+static void steady_light_bends_less(void)
+{
+    const double strata = bends_of(0), steady = bends_of(1);
+    CHECK_MSG(steady < 0.75 * strata, "steady %.4f, strata %.4f", steady, strata);
+}
+
 /* Points of a map that are placed by lanes are those that lmb_live_place gives, and others stay. */
 static void places_by_lanes(void)
 {
@@ -967,6 +1053,9 @@ void test_live(void)
     under_a_sheet_is_dark();
     behind_a_thin_wall_is_dark();
     same_bytes();
+    steady_light_is_right();
+    steady_bytes();
+    steady_light_bends_less();
     places_by_lanes();
     boxes_by_lanes();
     under_a_sky();

@@ -447,6 +447,9 @@ static lmb_frame_settings settings_of(const render_job *j, const lmb_scene *bare
     s.elements = (uint32_t)o->elements;
     s.gather_step = gather_of(j);
     s.samples = samples_of(o);
+#if LMB_LIVE
+    s.steady = o->is_steady;
+#endif
     s.id_format = LMB_ID32;
     return s;
 }

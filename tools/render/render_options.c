@@ -223,6 +223,11 @@ const option_row render_bounce_rows[] = {
                   "light. Default: full; from 65,536 pixels on, except with best: live for --quality draft, for "
                   "`play`, under a sky and for many lights, unless you give --error, --visibility, --tree or a "
                   "budget")},
+#if LMB_LIVE
+    {.name = "--steady", .kind = OPTION_FLAG, AT(is_steady),
+     .help = HELP("with --gather live: bounced light flickers less while lights or the camera move, for about half as "
+                  "much time again")},
+#endif
     {.kind = OPTION_END},
 };
 

@@ -58,6 +58,7 @@ typedef struct render_options {
     int32_t many_lights_cells; /* 0: only if the scene has too many lights for maps */
     float light_error;
     int32_t gather_step; /* LMB_GATHER_*; 0: default */
+    int is_steady;       /* lmb_frame_settings.steady */
     int32_t is_moving;   /* many frames of one scene: set by `play` */
     int32_t samples;     /* per pixel; 0: depends on the output format */
     int32_t sorted;      /* --blend sorted */
