@@ -681,7 +681,9 @@ static uint64_t case_facets(int variant)
 #endif
 
 #ifndef LMB_CONFIG_TINY
-/* The soup with light at single points, each near some of the map's texels. Variant: occlusion. */
+/* The soup with light at single points, each near some of the map's texels. Variant: occlusion, and STEADY. */
+enum { STEADY = 16 };
+
 static uint64_t case_live(int variant)
 {
     static uint64_t live_memory[1 << 13] GOLDEN_ALIGNED, lattice[10 * 8 * 192] GOLDEN_ALIGNED;
@@ -689,11 +691,12 @@ static uint64_t case_live(int variant)
     static lmb_live live;
     lmb_frame f = soup_frame(1, TREE);
     f.gather_step = LMB_GATHER_LIVE;
-    f.occlusion = variant;
+    f.occlusion = variant % STEADY;
     f.live = &live;
     memory.scratch.live = &live_scratch;
     const lmb_status one = lmb_lattice_init(&f.lattice, WIDTH, HEIGHT, lattice, sizeof lattice);
     const lmb_status two = lmb_live_init(&live, 1, lmb_live_side(1, TREE), 0, live_memory, sizeof live_memory);
+    live.steady = variant / STEADY;
     return hash_frame(golden_hash_u32(golden_hash_u32(GOLDEN_START, (uint32_t)one), (uint32_t)two), &f);
 }
 
