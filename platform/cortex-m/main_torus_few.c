@@ -1,5 +1,5 @@
-/* main_torus_few.c: main_torus.c with a quarter of the pixels and of the shadow map's texels in all frames but the first,
- * for tests/scripts/tiny.sh. */
+/* main_torus_few.c: main_torus.c with a quarter of the pixels and a small shadow map in all frames but the first, for
+ * tests/scripts/tiny.sh. */
 #define OTHERS 80
-#define OTHERS_MAP 64
+#define OTHERS_MAP 32
 #include "main_torus.c"

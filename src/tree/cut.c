@@ -26,7 +26,7 @@
 #define STAND_OFF          4.0f  /* times the noise: offset of a texel's point towards the light */
 #define LARGE_NOISE        1.5258789e-5f /* 2^-16 of the distance to the eye: the origin is then 64 times as far away */
 #define SPENT_TILE_FACTOR     8.0  /* factor on the allowed light and error in a tile that has used up the tests */
-#define SPENT_TILE_NODES      2048 /* maximum of nodes there */
+#define SPENT_TILE_NODES      6144 /* maximum of nodes there; with fewer, a turned grille has 1.25 x the error */
 #define MAX_SPLIT_ERROR_SHARE 0.7  /* a split of the pixels must reduce the error to this share to be worth the cuts */
 #define FACETS_NEAR        3.0f /* times LMB_NEAR and half the diagonal of a cell: nearer texels show facets */
 enum { LEAF_PARTS_A_SIDE = 4 /* for a lobe, a near leaf is LEAF_PARTS_A_SIDE x LEAF_PARTS_A_SIDE parts */ };

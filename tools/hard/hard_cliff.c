@@ -182,9 +182,9 @@ static void put_pictures(hard_list *list)
         int scene;
         const char *name;
         double bound;
-    } row[] = {{NEEDLES, "2,000 needles: light and visibility of a picture, of a room's", 0.5},
-               {HAIR, "2,000 hairs: light and visibility of a picture, of a room's", 0.4},
-               {HALF_HOLES, "1,000 quads with holes: light and visibility of a picture, of a room's", 0.11}};
+    } row[] = {{NEEDLES, "2,000 needles: light and visibility of a picture, of a room's", 0.6},
+               {HAIR, "2,000 hairs: light and visibility of a picture, of a room's", 0.425},
+               {HALF_HOLES, "1,000 quads with holes: light and visibility of a picture, of a room's", 0.12}};
     const double room = picture_work(list->stage, ROOM);
     for (size_t i = 0; i < sizeof row / sizeof row[0]; ++i) {
         hard_put(list, HARD_MEASURED, row[i].name, hard_share(picture_work(list->stage, row[i].scene), room),
