@@ -79,7 +79,7 @@
 #error "lambent: LMB_TREES needs LMB_BOUNCE"
 #endif
 
-/* 0: a texel of the light tree in which several surfaces show gives light by one of them only, and shadow maps alone
+/* 0: a texel of the light tree in which several surfaces show gives light by one of them only, and only shadow maps
  * decide about single lit pixels in dark corners. Saves 7 KiB of code; floors beside round objects in low sun get
  * bright specks. 0 in a build without trees. */
 #ifndef LMB_FACETS

@@ -4,7 +4,7 @@
 #include "solver.h"
 #include "stages.h"
 
-/* Direct light of many lights. Samples of a pack are spread out, so each tests every shadow separately. */
+/* Direct light of many lights. The pixels of `together` lie apart, so each tests every shadow separately. */
 NOINLINE lmb_status gather_many_lights(lmb_irradiance *inout, const lmb_render *r, lmb_band_scratch *s,
                                      const lmb_tile *tile)
 {

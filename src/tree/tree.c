@@ -480,7 +480,7 @@ static void merge(lmb_node *out, const lmb_node child[4], const lmb_tree *tree, 
     }
 }
 
-/* Stores how much light of texels in which planes meet is their own. Each node and pack with such a texel reads it. */
+/* Stores how much light of texels in which planes meet is their own. Each node with such a texel reads it. */
 static void set_face_shares(const lmb_tree *tree, uint32_t face)
 {
     lmb_texel *all = tree->texel + (size_t)face * (size_t)tree->size * (size_t)tree->size;

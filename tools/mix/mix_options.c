@@ -123,9 +123,10 @@ static const option_row object_rows[] = {
              "object: OUT MESH PLACE [TURN [SIZE]], separated by blanks. Names are relative to LIST; quote a name "
              "with blanks: \"my vase.glb\". PLACE: X,Y or world as for --at, or floor, table, wall or any as for "
              "--on. TURN: degrees (default 0). SIZE: metres of the longest side, fit, or - for the mesh's own "
-             "(default). Successive lines with one OUT put up to 16 objects into one picture. A line that begins "
-             "with # is a comment. Light is simpler than for --object: an object reflects light once, in its mean "
-             "colour, and does not glow")},
+             "(default). Successive lines with one OUT put up to 16 objects into one picture; they do not avoid each "
+             "other. The folders of all OUT must exist. A line that begins with # is a comment. Light is simpler "
+             "than for --object: an object reflects light once, in its mean colour, and does not glow. Not with "
+             "--frames, --show, --stats and --roughness")},
 #endif
     {.kind = OPTION_END},
 };
@@ -171,7 +172,8 @@ static const option_row output_rows[] = {
              "PREFIX.depth.pfm: depth, m; PREFIX.normal.pfm: normals, x right, y up, z towards the camera; "
              "PREFIX.object.png: the object without the photo, with alpha; PREFIX.pose.json: the camera, and "
              "transforms from the mesh to the camera, as camera_to_world, and to the world. --placements adds each "
-             "OUT's name without ending to PREFIX, for example labels/")},
+             "OUT's name without ending to PREFIX: labels/ and out/1.png give labels/out/1.mask.png; the folder "
+             "must exist")},
     {.name = "--match-grain", .kind = OPTION_FLAG, AT(match_grain),
      .help = HELP("adds noise like the photo's to the object, by brightness and colour")},
 #endif

@@ -226,7 +226,7 @@ const option_row render_bounce_rows[] = {
 #if LMB_LIVE
     {.name = "--steady", .kind = OPTION_FLAG, AT(is_steady),
      .help = HELP("with --gather live: bounced light flickers less while lights or the camera move, for about half as "
-                  "much time again")},
+                  "much time again; otherwise no effect")},
 #endif
     {.kind = OPTION_END},
 };
