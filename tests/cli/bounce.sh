@@ -77,6 +77,14 @@ status 0 compare land.pfm landfull.pfm
 check "it keeps the light: $(head -n 1 out.txt)" awk '
     { for (i = 1; i < NF; ++i) v[$i] = $(i + 1) } END { exit !(v["mean"] > 0.9 && v["mean"] < 1.1 && v["trim"] < 0.2) }' \
     out.txt
+status 2 render demo $small --steady --error-bound 0.1 -o bound.pfm
+status 2 render demo $small --steady --gather full -o bound.pfm
+check "--steady refuses --gather full" grep -q 'leave --gather full out' err.txt
+status 0 render demo $few --exposure 0 --gather live -o live.pfm
+status 0 render demo $few --exposure 0 --steady -o steady.pfm
+status 0 render demo $few --exposure 0 --steady --gather live -o named.pfm
+check "--steady is live light" cmp steady.pfm named.pfm
+check "--steady picks other targets" differ steady.pfm live.pfm
 status 2 render demo $small --gather live --error-bound 0.1 -o bound.pfm
 check "live light refuses a bound that it does not keep" grep -q -e '--gather live keeps no bound; use --gather full' err.txt
 check "and writes nothing" test ! -e bound.pfm

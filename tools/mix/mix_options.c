@@ -222,11 +222,11 @@ static int complete_frames(const mix_options *o, report *r)
     if (o->source.frame != NULL || o->source.photo != NULL || o->source.depth != NULL) {
         return report_fail(r, "--frames names all photos; leave --frame, --photo and --depth out");
     }
-    if (o->out == NULL || frame_digits(o->out) == 0) {
-        return report_fail(r, "--frames: -o is a name with one %%0Nd, as frame_%%04d.png");
-    }
     if (o->labels != NULL || o->placements != NULL) {
         return report_fail(r, "--frames: --labels and --placements are of one photo");
+    }
+    if (o->out == NULL || frame_digits(o->out) == 0) {
+        return report_fail(r, "--frames: -o is a name with one %%0Nd, as frame_%%04d.png");
     }
     if (o->stats != NULL) {
         return report_fail(r, "--frames: --stats is of one photo; -v says what each frame took");

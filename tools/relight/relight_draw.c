@@ -454,7 +454,8 @@ static int take_frame(stage *s, report *r)
 
 static int tell_step(const stage *s, report *r)
 {
-    report_say("largest step of light %.2f %%\n", 100.0 * (double)s->step);
+    report_say("largest step of light %.2f %%%s\n", 100.0 * (double)s->step,
+               s->worlds > 0 ? ", without changes of the world" : "");
     return report_flush(r);
 }
 

@@ -415,7 +415,7 @@ static int32_t gather_of(const render_job *j)
         ((o->is_moving || is_even || j->gathers_sky) && o->quality == LMB_QUALITY_DEFAULT);
     const int is_live =
         LMB_LIVE && is_cut && !is_asked && !has_budget(&o->budget, o->budget_ms) && is_quick && !is_small;
-    return o->gather_step != 0 ? o->gather_step : is_live ? LMB_GATHER_LIVE : 0;
+    return o->gather_step != 0 ? o->gather_step : is_live || o->is_steady ? LMB_GATHER_LIVE : 0;
 }
 
 /* The settings that determine the frame's memory. `bare`: the scene without lights, for attributes. */

@@ -225,8 +225,8 @@ const option_row render_bounce_rows[] = {
                   "budget")},
 #if LMB_LIVE
     {.name = "--steady", .kind = OPTION_FLAG, AT(is_steady),
-     .help = HELP("with --gather live: bounced light flickers less while lights or the camera move, for about half as "
-                  "much time again; otherwise no effect")},
+     .help = HELP("--gather live whose bounced light flickers less while lights or the camera move, for about half as "
+                  "much time again; more error out of doors")},
 #endif
     {.kind = OPTION_END},
 };
@@ -347,8 +347,11 @@ static void choose(render_options *o)
 #if !defined(OPTIONS_WITHOUT_HELP) /* the web page has neither --budget nor --error-bound */
 static int check_choices(const render_options *o, report *r)
 {
-    if (o->conservative && o->gather_step == LMB_GATHER_LIVE) {
+    if (o->conservative && (o->gather_step == LMB_GATHER_LIVE || o->is_steady)) {
         return report_fail(r, "--error-bound: --gather live keeps no bound; use --gather full");
+    }
+    if (o->is_steady && o->gather_step == 1) {
+        return report_fail(r, "--steady is a kind of --gather live; leave --gather full out");
     }
     if (o->rate > 0.0f && !(o->budget_ms > 0.0f)) {
         return report_fail(r, "--budget rate: a speed goes only with ms, which it turns into work");

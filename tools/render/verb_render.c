@@ -215,9 +215,9 @@ static void tell_regroups(const render_job *j)
 static void tell_full_cuts(const render_job *j)
 {
     if (LMB_LIVE && j->stats.full_cuts > 0 && j->frame.gather_step == LMB_GATHER_LIVE) {
-        report_note(j->o.view.is_quiet,
-                    "note: %.0f points are so near to lit surfaces that these count more coarsely than asked for "
-                    "(LMB_LIVE_CUT, LMB_LIVE_NEAR); --gather full does not",
+        report_note(!j->o.view.is_verbose,
+                    "note: at %.0f points near lit surfaces, some of the light comes from larger parts than elsewhere "
+                    "(LMB_LIVE_CUT, LMB_LIVE_NEAR); --gather full has no such limit",
                     (double)j->stats.full_cuts);
     } else if (j->stats.full_cuts > 0) {
         report_note(j->o.view.is_quiet,
