@@ -825,6 +825,27 @@ OP(tex_env)
 
 /* --- reading back ------------------------------------------------------------------------------------------------- */
 
+/* A texel as glGetTexImage packs it. */
+static void texture_get_texel(float v[4], const gl_image *m, const uint8_t *p, GLenum format)
+{
+    if (m->base == GL_DEPTH_COMPONENT) {
+        memcpy(v, p, sizeof *v);
+        v[1] = format == GL_DEPTH_STENCIL ? (float)m->stencil[(p - m->texels) / 4] : 0.0f;
+        return;
+    }
+    for (int i = 0; i < 4; ++i) {
+        v[i] = (float)p[i] / 255.0f;
+    }
+    if (format == GL_LUMINANCE || format == GL_LUMINANCE_ALPHA) {
+        v[1] = v[2] = 0.0f; /* luminance is red */
+    }
+    if (m->base == GL_LUMINANCE || m->base == GL_LUMINANCE_ALPHA || m->base == GL_INTENSITY || m->base == GL_ALPHA) {
+        v[1] = v[2] = 0.0f; /* read as red */
+        v[0] = m->base == GL_ALPHA ? 0.0f : v[0];
+        v[3] = m->base == GL_INTENSITY ? 1.0f : v[3];
+    }
+}
+
 void glGetTexImage(GLenum target, GLint level, GLenum format, GLenum type, void *out)
 {
     GL_ENTER()
@@ -845,34 +866,21 @@ void glGetTexImage(GLenum target, GLint level, GLenum format, GLenum type, void 
                   d = m->depth + (kind == TARGET_3D ? 2 * b : 0);
     const uint8_t *p = m->texels;
     gl_store s = c->client.pack;
-    const int32_t images = kind == TARGET_3D ? s.images : 0, rows = s.rows;
+    const int32_t images = kind == TARGET_3D ? s.images : 0, rows = s.rows, pixels = s.pixels;
     s.height = kind == TARGET_3D && s.height > 0 ? s.height : h;
     s.row = s.row > 0 ? s.row : w;
     for (int32_t z = 0; z < d; ++z) {
         for (int32_t y = 0; y < h; ++y) {
-            for (int32_t x = 0; x < w; ++x, p += 4) {
-                float *v = c->row[x];
-                if (m->base == GL_DEPTH_COMPONENT) {
-                    memcpy(v, p, sizeof *v);
-                    v[1] = format == GL_DEPTH_STENCIL ? (float)m->stencil[(p - m->texels) / 4] : 0.0f;
-                    continue;
+            for (int32_t x = 0; x < w; x += GL_SIDE_CUBE) {
+                const int32_t n = mini(w - x, GL_SIDE_CUBE);
+                for (int32_t k = 0; k < n; ++k, p += 4) {
+                    texture_get_texel(c->row[k], m, p, format);
                 }
-                for (int i = 0; i < 4; ++i) {
-                    v[i] = (float)p[i] / 255.0f;
-                }
-                if (format == GL_LUMINANCE || format == GL_LUMINANCE_ALPHA) {
-                    v[1] = v[2] = 0.0f; /* luminance is red */
-                }
-                if (m->base == GL_LUMINANCE || m->base == GL_LUMINANCE_ALPHA || m->base == GL_INTENSITY ||
-                    m->base == GL_ALPHA) {
-                    v[1] = v[2] = 0.0f; /* read as red */
-                    v[0] = m->base == GL_ALPHA ? 0.0f : v[0];
-                    v[3] = m->base == GL_INTENSITY ? 1.0f : v[3];
-                }
+                s.images = images + z;
+                s.rows = rows + y;
+                s.pixels = pixels + x;
+                gl_pack(out, &s, n, 1, 1, 3, format, type, c->row[0]);
             }
-            s.images = images + z;
-            s.rows = rows + y;
-            gl_pack(out, &s, w, 1, 1, 3, format, type, c->row[0]);
         }
     }
 }

@@ -63,6 +63,7 @@ line 1 'SIZE is no number' 'out/x.png tent.obj 8,12 0 1e30\n'
 line 1 'more than OUT MESH PLACE' 'out/x.png tent.obj 8,12 0 1 2\n'
 line 1 'a quote is not closed' 'out/x.png "tent.obj 8,12\n'
 line 3 'OUT is that of line 1' 'out/x.png tent.obj 8,12\nout/y.png tent.obj 8,12\nout/x.png tent.obj 8,12\n'
+line 3 'OUT is that of line 1' 'out/x.png tent.obj 8,12\nout/y.png tent.obj 8,12\n./out/.//x.png tent.obj 8,12\n'
 line 2 'set/nowhere.obj: ' 'out/x.png tent.obj 8,12\nout/y.png nowhere.obj 8,12\n'
 line 2 '--on floor: no plane faces up' 'out/x.png tent.obj 8,12\nout/y.png tent.obj floor\n'
 line 2 'set/nowhere/y.png: ' 'out/x.png tent.obj 8,12\nnowhere/y.png tent.obj 8,12\n'
@@ -94,6 +95,13 @@ check "a pose has the camera" holds '"fx": 30,' lab/out/b.pose.json
 check "one object has one pose" test "$(grep -c '"object_to_camera"' lab/out/b.pose.json)" -eq 1
 "$TOOL" info lab/out/b.mask.png >info.txt
 check "the mask has the code 255" holds 'max 255' info.txt
+
+list 'out/a.png tent.obj 6,12 0 0.3\nout/a.pfm tent.obj 17,12 0 0.3\n'
+status 1 mix $seen --light none --placements set/list.txt --labels lab/ -q
+said "set/list.txt: line 2: lab/out/a.depth.pfm is a file of line 1, too"
+list 'out/a.mask.png tent.obj 6,12 0 0.3\nout/a.png tent.obj 17,12 0 0.3\n'
+status 1 mix $seen --light none --placements set/list.txt --labels set/ -q
+said "set/list.txt: line 2: set/out/a.mask.png is a file of line 1, too"
 
 # --match-grain adds noise to the object, and only as much as the photo has. The noise here is even over 30 codes, which
 # is a deviation of 8.7 codes.

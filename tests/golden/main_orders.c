@@ -3,9 +3,9 @@
  *
  * Prints a line for each way, and the lines of cases that differ. Cases take turns through the backends, and change
  * backends from way to way, so every backend runs with every number of threads, and every case. `golden-orders all`
- * runs every way on every backend. `golden-orders half` draws each case in half of the ways. Pictures are drawn band by band, maps and targets by rows of tiles, the stages of
- * a frame in parts; scratch is filled with noise before each piece. Two more ways skip no stage, and reuse all
- * results of an earlier frame. */
+ * runs every way on every backend. `golden-orders half` draws each case in half of the ways. Pictures are drawn band by
+ * band, maps and targets by rows of tiles, the stages of a frame in parts; scratch is filled with noise before each
+ * piece. Two more ways skip no stage, and reuse all results of an earlier frame. */
 #include <stdio.h>
 #include <string.h>
 
@@ -267,7 +267,8 @@ static void put_wrong(const char *line)
     }
 }
 
-static int by_half, ways; /* with `half` each case takes part where the bits of the way's number have an even or odd sum */
+/* With `half` each case takes part where the bits of the way's number have an even or odd sum. */
+static int by_half, ways;
 
 static int run_way(const char *name, int number, golden_way *way)
 {

@@ -376,6 +376,28 @@ static void test_palette_from_afar(void)
     }
 }
 
+/* Each level of a strip counts as much as the first one, too; with weights of 4 a level the error was 63. */
+static void test_palette_of_a_strip(void)
+{
+    enum { LONG_T = 4096 };
+    static uint8_t rgba[8 * LONG_T];
+    lmb_texture t;
+    pack_buffer out = {NULL, 0, 0, 0};
+    memset(&t, 0, sizeof t);
+    t.texels = rgba;
+    t.width = LONG_T;
+    t.height = 1;
+    t.levels = lmb_texture_level_count(LONG_T, 1);
+    for (int i = 0; i < LONG_T; ++i) {
+        const uint8_t code[4] = {(uint8_t)(i / 16), (uint8_t)(i * 7), (uint8_t)(i * 13), 255};
+        memcpy(rgba + 4 * i, code, 4);
+    }
+    CHECK(lmb_texture_mips(rgba, t.width, t.height, t.levels) == LMB_OK);
+    const double error = pack_encode(&out, &t, LMB_TEXELS_PALETTE4, 0);
+    CHECK(error > 0.0 && error < 45.0);
+    free(out.data);
+}
+
 /* A picture with packed formats equals that with the decoded RGBA8 codes: through kernels, levels and holes. */
 static void test_formats_drawn(void)
 {
@@ -793,6 +815,7 @@ void test_pack(void)
     test_spans();
     test_formats();
     test_palette_from_afar();
+    test_palette_of_a_strip();
     test_formats_drawn();
     test_demo();
     test_no_cracks();

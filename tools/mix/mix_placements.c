@@ -81,15 +81,33 @@ static int next_word(char **word, char **at)
     return 1;
 }
 
-static char *joined(const char *folder, const char *name)
+static char *joined_after(const char *first, const char *then)
 {
-    const size_t a = name[0] == '/' ? 0 : strlen(folder), b = strlen(name);
+    const size_t a = strlen(first), b = strlen(then);
     char *out = malloc(a + b + 1);
     if (out != NULL) {
-        memcpy(out, folder, a);
-        memcpy(out + a, name, b + 1);
+        memcpy(out, first, a);
+        memcpy(out + a, then, b + 1);
     }
     return out;
+}
+
+static char *joined(const char *folder, const char *name) { return joined_after(name[0] == '/' ? "" : folder, name); }
+
+/* Leaves out `.` and empty parts, which name the same file: x/./y and x//y become x/y. */
+static void tidy(char *name)
+{
+    char *to = name;
+    for (const char *from = name; *from != '\0';) {
+        const size_t n = strcspn(from, "/");
+        const int is_last = from[n] == '\0', is_needless = !is_last && from != name && n == 0;
+        if (!is_needless && !(n == 1 && from[0] == '.' && !is_last)) {
+            memmove(to, from, n + !is_last);
+            to += n + !is_last;
+        }
+        from += n + !is_last;
+    }
+    *to = '\0';
 }
 
 /* Does a name stay in the list's folder? */
@@ -139,6 +157,7 @@ static int set_row(placements *p, list_row *row, char *const word[WORDS], report
     if (word[2] == NULL) {
         return fail_row(p, row, r, "write OUT MESH PLACE [TURN [SIZE]]");
     }
+    tidy(word[0]);
     if (!is_below(word[0])) {
         return fail_row(p, row, r, "OUT leads out of the list's folder");
     }
@@ -277,9 +296,58 @@ static void label_name(char *out, size_t size, const placements *p, int32_t pict
     snprintf(out, size, "%s%.*s", p->j->o.labels, (int)(dot - name), name);
 }
 
+static const char *const endings[] = {".mask.png", ".depth.pfm", ".normal.pfm", ".object.png", ".pose.json"};
+
+/* A file that a picture writes. */
+typedef struct written {
+    char *name;
+    int32_t line;
+} written;
+
+static int by_written(const void *a, const void *b)
+{
+    const written *x = a, *y = b;
+    const int order = strcmp(x->name, y->name);
+    return order != 0 ? order : (x->line > y->line) - (x->line < y->line);
+}
+
+/* Refuses labels of one picture that would replace a file of another one, as those of a.png and a.pfm. */
+static int labels_differ(const placements *p, report *r)
+{
+    enum { FILES = 6 };
+    char name[2 * NAME_MAX_BYTES];
+    written *all = p->j->o.labels != NULL ? calloc((size_t)p->pictures * FILES, sizeof *all) : NULL;
+    int ok = p->j->o.labels == NULL || all != NULL;
+    int32_t n = 0;
+    for (int32_t i = 0; ok && all != NULL && i < p->pictures; ++i) {
+        const list_row *row = &p->row[p->first[i]];
+        label_name(name, sizeof name, p, i);
+        for (int k = 0; k < FILES && ok; ++k) {
+            all[n].line = row->line;
+            all[n].name = joined_after(k == 0 ? row->out : name, k == 0 ? "" : endings[k - 1]);
+            ok = all[n++].name != NULL;
+        }
+    }
+    if (!ok) {
+        report_fail(r, "%s: out of memory", p->path);
+    } else if (all != NULL) {
+        qsort(all, (size_t)n, sizeof *all, by_written);
+    }
+    for (int32_t i = 1; i < n && ok; ++i) {
+        if (strcmp(all[i].name, all[i - 1].name) == 0) {
+            ok = report_fail(r, "%s: line %d: %s is a file of line %d, too", p->path, (int)all[i].line, all[i].name,
+                             (int)all[i - 1].line);
+        }
+    }
+    for (int32_t i = 0; i < n; ++i) {
+        free(all[i].name);
+    }
+    free(all);
+    return ok;
+}
+
 static int can_write(const placements *p, report *r)
 {
-    static const char *const endings[] = {".mask.png", ".depth.pfm", ".normal.pfm", ".object.png", ".pose.json"};
     int ok = 1;
     for (int32_t i = 0; ok && i < p->pictures; ++i) {
         char name[2 * NAME_MAX_BYTES], whole[2 * NAME_MAX_BYTES + 16];
@@ -535,7 +603,7 @@ static int run(placements *p, report *r)
     int ok = options_files(&j->o, &mix_table, r) && mix_frame_read(&j->frame, &j->o.source, r);
     j->read_s = mix_lap(&from);
     ok = ok && read_list(p, r) && find_pictures(p, r) && options_files(&j->o, &mix_table, r) && load_meshes(p, r) &&
-         can_write(p, r) && mix_find_planes(j, r);
+         labels_differ(p, r) && can_write(p, r) && mix_find_planes(j, r);
     j->planes_s = mix_lap(&from);
     ok = ok && mix_place(j, r) && put_all(p, r);
     j->place_s = mix_lap(&from);

@@ -83,13 +83,14 @@ static int find_cells(bunch *cell, const lmb_texture *t, int alpha)
     const uint8_t *p = t->texels;
     int count = 0;
     for (int32_t level = 0; level < t->levels; ++level) {
+        const int64_t times = (int64_t)(level_texels(t, 0) / level_texels(t, level));
         for (size_t i = level_texels(t, level); i > 0; --i, p += 4) {
             const int a = alpha ? p[3] : 255;
             bunch *c = &cell[(((a >> 7) << BITS | p[0] >> 3) << BITS | p[1] >> 3) << BITS | p[2] >> 3];
             for (int k = 0; k < 4; ++k) {
-                c->sum[k] += (int64_t)(k < 3 ? p[k] : a) << 2 * level;
+                c->sum[k] += times * (k < 3 ? p[k] : a);
             }
-            c->count += (int64_t)1 << 2 * level;
+            c->count += times;
         }
     }
     for (int i = 0; i < CELLS; ++i) {

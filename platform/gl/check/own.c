@@ -247,6 +247,14 @@ static void tall(void)
     glRectf(-1, -1, 1, 1);
     glFinish();
     check(pixels[20][20][1] == 255 && pixels[20][20][0] == 0, "a tall texture");
+    static unsigned char back[TALL][3];
+    for (int i = 0; i < TALL; ++i) {
+        texels[i][0] = (unsigned char)(i / 47);
+    }
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB, TALL, 1, 0, GL_RGB, GL_UNSIGNED_BYTE, texels);
+    glGetTexImage(GL_TEXTURE_2D, 0, GL_RGB, GL_UNSIGNED_BYTE, back);
+    check(memcmp(back, texels, sizeof back) == 0, "glGetTexImage of a wide texture");
     glTexImage2D(GL_PROXY_TEXTURE_2D, 0, GL_RGBA, max, max, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
     glGetTexLevelParameteriv(GL_PROXY_TEXTURE_2D, 0, GL_TEXTURE_WIDTH, &max);
     check(max == 0, "a texture as large as the heap");
