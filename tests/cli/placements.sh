@@ -119,4 +119,16 @@ check "the grain is as strong as the photo's: $(cat found.txt)" awk '{ exit !($1
 status 0 mix $seen $sun --object set/tent.obj --at 8,12 --scale 0.5 --voxels 4 --match-grain -q -o even.pfm
 status 0 mix $seen $sun --object set/tent.obj --at 8,12 --scale 0.5 --voxels 4 -q -o plain.pfm
 check "a photo without noise adds none" cmp even.pfm plain.pfm
+
+# Another photo has other noise, so the grain of a sequence does not stand still. Its first pixel is black.
+{ head -c 13 noisy.ppm; printf '\000\000\000'; tail -c 6909 noisy.ppm; } >other.ppm
+cp other.ppm noisy.ppm
+status 0 mix $noisy --voxels 4 --shadow-map 64 --light none --match-grain -q -o moved.ppm
+tail -c 6912 moved.ppm | od -An -v -tu1 -w1 | paste - grain.txt | awk '$1 != $2 { n += 1 } END { print n }' >found.txt
+check "another photo has other grain: $(cat found.txt)" test "$(cat found.txt)" -gt 300
+
+# A label never replaces the picture.
+status 1 mix $seen $sun --object set/tent.obj --at 8,12 --voxels 4 --labels lone -q -o lone.mask.png
+said "--labels would write lone.mask.png a second time"
+check "and nothing is written" none lone.*
 finish

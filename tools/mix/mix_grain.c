@@ -70,6 +70,25 @@ static void fill(mix_grain *g, sizes of[MIX_GRAIN_STEPS][3])
     }
 }
 
+/* A number that looks random: a finaliser of MurmurHash3. */
+static uint32_t mixed(uint32_t h)
+{
+    h = (h ^ h >> 16) * 0x85ebca6bu;
+    h = (h ^ h >> 13) * 0xc2b2ae35u;
+    return h ^ h >> 16;
+}
+
+static uint32_t seed_of(const image *photo)
+{
+    const size_t count = (size_t)photo->width * (size_t)photo->height * (size_t)photo->channels;
+    uint32_t seed = 0, bits;
+    for (size_t i = 0; i < count; ++i) {
+        memcpy(&bits, &photo->pixels[i], sizeof bits);
+        seed = mixed(seed ^ bits);
+    }
+    return seed;
+}
+
 int mix_grain_find(mix_grain *out, const image *photo)
 {
     sizes(*of)[3] = calloc(MIX_GRAIN_STEPS, sizeof *of);
@@ -85,22 +104,15 @@ int mix_grain_find(mix_grain *out, const image *photo)
         }
     }
     fill(out, of);
+    out->seed = seed_of(photo);
     free(of);
     return 1;
 }
 
-/* A number that looks random: a finaliser of MurmurHash3. */
-static uint32_t mixed(uint32_t h)
-{
-    h = (h ^ h >> 16) * 0x85ebca6bu;
-    h = (h ^ h >> 13) * 0xc2b2ae35u;
-    return h ^ h >> 16;
-}
-
 /* A sum of four even numbers is near to a normal distribution, of deviation 1 here. */
-static float noise_of(uint32_t x, uint32_t y, uint32_t c)
+static float noise_of(uint32_t seed, uint32_t x, uint32_t y, uint32_t c)
 {
-    const uint32_t a = mixed(x + 8192u * y + 0x9e3779b9u * (c + 1)), b = mixed(a + 0x7f4a7c15u);
+    const uint32_t a = mixed(mixed(seed + x + 8192u * y) + 0x9e3779b9u * (c + 1)), b = mixed(a + 0x7f4a7c15u);
     const float sum = (float)(a & 0xffffu) + (float)(a >> 16) + (float)(b & 0xffffu) + (float)(b >> 16);
     return (sum * (1.0f / 65535.0f) - 2.0f) * 1.7320508f;
 }
@@ -110,7 +122,7 @@ void mix_grain_add(lmb_radiance *inout, const mix_grain *g, const float covered[
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         for (int c = 0; c < 3 && covered[k] > 0.0f; ++c) {
             const float was = inout->rgb[c][k], value = root(was),
-                        noise = noise_of((uint32_t)(x + k % LMB_TILE), (uint32_t)(y + k / LMB_TILE), (uint32_t)c),
+                        noise = noise_of(g->seed, (uint32_t)(x + k % LMB_TILE), (uint32_t)(y + k / LMB_TILE), (uint32_t)c),
                         now = fmaxf(value + covered[k] * g->sigma[step_of(value)][c] * noise, 0.0f);
             inout->rgb[c][k] = fmaxf(was + (now * now - value * value), 0.0f);
         }

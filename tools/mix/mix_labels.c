@@ -14,6 +14,21 @@ enum { PATH_CAP = 4096 };
 
 static float dot(lmb_vec3 a, lmb_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
+/* 1 unless a label would replace the picture or the statistics; names are compared as text. */
+static int names_differ(const mix_job *j, report *r)
+{
+    static const char *const endings[] = {".mask.png", ".depth.pfm", ".normal.pfm", ".object.png", ".pose.json"};
+    const char *const others[] = {j->o.out, j->o.stats};
+    const size_t length = strlen(j->o.labels);
+    for (int i = 0; i < 10; ++i) {
+        const char *other = others[i % 2];
+        if (other != NULL && strncmp(other, j->o.labels, length) == 0 && strcmp(other + length, endings[i / 2]) == 0) {
+            return report_fail(r, "--labels would write %s a second time", other);
+        }
+    }
+    return 1;
+}
+
 int mix_labels_take(mix_job *j, report *r)
 {
     const size_t pixels = (size_t)j->frame.light.width * (size_t)j->frame.light.height;
@@ -26,6 +41,9 @@ int mix_labels_take(mix_job *j, report *r)
     }
     if (j->o.labels == NULL || j->is_shared) {
         return 1;
+    }
+    if (!names_differ(j, r)) {
+        return 0;
     }
     struct mix_labels *l = j->labels = mix_take(j, sizeof *l, r);
     if (l == NULL || (l->covered = mix_take(j, MIX_LABEL_FLOATS * pixels * sizeof *l->covered, r)) == NULL) {
