@@ -19,7 +19,12 @@ static const feature features[] = {
     {"bounced, a tree, draft", LMB_SHOW_FULL, LMB_QUALITY_DRAFT, 1, 0},
 };
 static const int32_t widths[] = {80, 160, 320};
-enum { FEATURES = sizeof features / sizeof features[0], WIDTHS = sizeof widths / sizeof widths[0], DIRECT = 160, MAP = 128 };
+enum {
+    FEATURES = sizeof features / sizeof features[0],
+    WIDTHS = sizeof widths / sizeof widths[0],
+    DIRECT = 160,
+    MAP = 128
+};
 
 /* Width and shadow map of the drawn frames with other light or samples; main_torus_few.c sets smaller ones. */
 #ifndef OTHERS
