@@ -219,6 +219,9 @@ lmb_status lmb_render_solve_part(const lmb_render *r, lmb_band_scratch *scratch,
 static lmb_status end_parts_of_face(lmb_render *r, int32_t parts)
 {
     const frame_solver *solver = lmb_solver_of(&r->frame);
+    if (solver == NULL) {
+        return LMB_ERR_ARG;
+    }
     if (solver->join != NULL && is_drawn(r)) {
         solver->join(r, parts);
     }

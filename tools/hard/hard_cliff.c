@@ -86,7 +86,8 @@ static void put_scene(hard_stage *s, int scene, int count, const frame *f, uint6
         hard_ball(s, turned(f, dvec_mul(unit(rng), 0.5)), 0.4, 5);
     }
     for (int i = 0; i < (scene == ROOM ? BOXES : 0); ++i) {
-        hard_box(s, turned(f, place(rng, 1.4)), dvec_of(0.05, 0.1, hard_uniform(rng, 0.05, 0.2)));
+        const double deep = hard_uniform(rng, 0.05, 0.2); /* not in the call, whose arguments have no order */
+        hard_box(s, turned(f, place(rng, 1.4)), dvec_of(0.05, 0.1, deep));
     }
     for (int i = 0; i < (scene == ALL_HOLES || scene == HALF_HOLES ? count / 2 : 0); ++i) {
         const dvec d = unit(rng), e = dvec_unit(dvec_cross(d, unit(rng)));
