@@ -121,8 +121,8 @@ void mix_grain_add(lmb_radiance *inout, const mix_grain *g, const float covered[
 {
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         for (int c = 0; c < 3 && covered[k] > 0.0f; ++c) {
-            const float was = inout->rgb[c][k], value = root(was),
-                        noise = noise_of(g->seed, (uint32_t)(x + k % LMB_TILE), (uint32_t)(y + k / LMB_TILE), (uint32_t)c),
+            const uint32_t at_x = (uint32_t)(x + k % LMB_TILE), at_y = (uint32_t)(y + k / LMB_TILE);
+            const float was = inout->rgb[c][k], value = root(was), noise = noise_of(g->seed, at_x, at_y, (uint32_t)c),
                         now = fmaxf(value + covered[k] * g->sigma[step_of(value)][c] * noise, 0.0f);
             inout->rgb[c][k] = fmaxf(was + (now * now - value * value), 0.0f);
         }
