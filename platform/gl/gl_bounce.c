@@ -1,9 +1,9 @@
 /* gl_bounce.c: GL_BOUNCED_LIGHT_LMB: shadows and bounced light from glLight, by lambent's elements and live light.
  *
  * A frame's static triangles (of display lists and of static buffers) are collected as they are drawn. glClear compares
- * them with the scene, and builds another scene if they differ. Eye spaces of frames differ by the camera: the first
- * static primitive of a frame tells by how much. Lights are solved when a frame's first static primitive is drawn, if
- * they changed. The shader then asks for each pixel: which lights it sees, and its bounced light. */
+ * them with the scene, and builds another scene if they differ. Triangles are in eye space. If the camera moves, the
+ * model-view matrix of the first static primitive gives the change. If a light changed, the light is solved when the
+ * first static primitive of a frame is drawn. The shader then computes shadows and bounced light for each pixel. */
 #include "gl_context.h"
 
 #include <lambent/elements.h>
@@ -17,9 +17,9 @@ enum { BOUNCE_FIRST = 1024 /* triangles */, BOUNCE_TEXELS = 32 /* a side, for th
        BOUNCE_MAX = 1 << 22, BOUNCES = 4 /* solved; the rest is estimated */ };
 #define BOUNCE_INSET 0.001f /* of the scene's size */
 #define BOUNCE_FLAT  0.999f /* least cosine of normals that share light */
-#define BOUNCE_SAME 1e-4f /* of the scene's size: what rounding may move */
+#define BOUNCE_SAME 1e-4f /* maximum movement by rounding, as a share of the scene's size */
 
-/* Triangles of a frame, in its eye space. */
+/* Triangles of a frame, in eye space. */
 typedef struct bounce_part {
     float *at;       /* 9 a triangle */
     uint8_t *colour; /* R G B A of 3 corners */
@@ -397,7 +397,7 @@ static void bounce_light_elements(gl_context *c, gl_bounce *b)
     }
 }
 
-/* Hands what the elements send to the tree of points. */
+/* Adds the light of all elements to the tree of points. */
 static int bounce_send(gl_bounce *b, int last)
 {
     return lmb_elements_send(&b->elements, last) == LMB_OK && lmb_elements_live(&b->live, &b->elements) == LMB_OK &&

@@ -405,7 +405,7 @@ static void vertex_polygon(gl_context *c, const uint32_t *at, int n, const int *
 /* With GL_FLAT all vertices get the colour of one: by copying, or as an index for the shader. */
 static void vertex_set_flat(gl_context *c, uint32_t provoking) { c->flat = provoking; }
 
-/* With GL_FLAT and bounced light: what a pixel's colour is computed from. */
+/* With GL_FLAT and bounced light: copies the normal and colours that a pixel is lit with. */
 static void vertex_copy_look(gl_context *c, uint32_t to, uint32_t from)
 {
     if (c->bounces && to != from) {

@@ -17,8 +17,9 @@ static void show_irradiance(lmb_radiance *out, const lmb_irradiance *e) { memcpy
 
 enum { MAX_ALONE = 2 /* pixels of a tile that a light reaches on their own */ };
 
-/* The corner of a room may be smaller than a texel of a shadow map, and the texel then shows what lies behind the room.
- * So where a light reaches hardly any pixel of a tile, segments decide. before: the light without this one. */
+/* The corner of a room may be smaller than a texel of a shadow map, and the texel then shows a surface behind the room.
+ * If a light reaches only a few pixels of a tile, this traces segments from these pixels to the light.
+ * before: the light without this one. */
 NOINLINE void leave_out_leaks(lmb_band_scratch *s, const lmb_frame *f, const lmb_light *light, const lmb_tile *tile,
                               const lmb_view *view, const lmb_irradiance *before)
 {

@@ -301,7 +301,7 @@ static float threshold_of(const builder *b, const lmb_live_point *p)
 
 #define REST 0.35f /* of 0.5: the share of each third of a cell that counts as the middle of the third */
 
-/* Where 0 .. 1 along a cell is: the middles of its thirds attract, without a jump. */
+/* Moves a place, 0 .. 1 along a cell, towards the middle of a third, without a jump. */
 static float at_rest(float v)
 {
     const float third = floorf(3.0f * v), off = 3.0f * v - third - 0.5f;

@@ -1,10 +1,13 @@
 /* live_steady.c: targets that change little while lights or receivers move. Layer 5.                    [ours]
  *
- * Strata of equal light shift as a whole if any node's light changes, so most segments end somewhere else in the next
- * frame. Here each node has a threshold that its cell of the world fixes. With `share` strata of light, a node under
- * one stratum is a target if the share exceeds the threshold, with a weight that starts at 0 there and whose mean over
- * all thresholds is the share. From half a stratum on, the weight changes over to the share itself; from one stratum
- * on, the node gives way to its parts. So no weight jumps. */
+ * Strata are ranges of one running sum. If the light of one node changes, all later strata shift, and most segments
+ * end somewhere else in the next frame. Here each node has a fixed threshold, from the cell of the world. If a node has
+ * less than one stratum of light and this share exceeds the threshold, the node is a target. The weight of a target
+ * starts at 0 at the threshold. The mean weight over all thresholds is the share. From half a stratum on, the weight
+ * fades to the share. From one stratum on, the parts of the node replace the node.
+ *
+ * In fine cells the key comes from a box around the lit points, which moves with the light. So these targets are not
+ * steady. */
 #include "live_part.h"
 
 #if LMB_LIVE
@@ -33,7 +36,7 @@ static float weight_of(float share, float threshold)
     return (1.0f - on) * fading + on * share;
 }
 
-/* Adds a node of over one stratum. Returns the number of its parts that wait next. */
+/* Adds a node of over one stratum. Returns the number of parts that wait next. */
 static int add_parts(lmb_live_scratch *s, const lmb_live *live, const waiting_node *n, waiting_node *out, int room)
 {
     const uint32_t first = n->chunk->first[n->lane], count = n->chunk->count[n->lane];

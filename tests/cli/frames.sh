@@ -239,7 +239,7 @@ mkdir -p frames/none
 status 1 mix --frames frames/none $tent -o bad%02d.png
 said "frames/none: a folder with neither frames.txt nor TUM's rgb.txt"
 
-# --missing-depth estimate: frames without depth take what earlier ones know, here the same wall from 1 m beside.
+# --missing-depth estimate: depth comes from earlier frames, here of the same wall, 1 m to the side.
 mkdir -p gaps
 for i in 0 1 2; do cp photo.pfm gaps/g$i.color.pfm; done
 cp wall.pfm gaps/g0.depth.pfm && cp wall.pfm gaps/whole.depth.pfm && cp photo.pfm gaps/whole.color.pfm

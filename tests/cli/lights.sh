@@ -109,7 +109,7 @@ status 2 render many.gltf --many-lights 0 -o bad.pfm
 status 2 render many.gltf --light-error 0 -o bad.pfm
 check "nothing is left behind" none bad* nowhere* *tmp*
 
-# A closed room, turned, under a lamp outside. At one of its corners the shadow map shows the ground behind the room.
+# A closed room, turned, under a lamp outside. At one corner, the shadow map shows the ground behind the room.
 cat >closed.obj <<EOF
 v -0.831321061 2.95186472 -2.02455735
 v -1.93729246 -0.915264666 -2.98540139

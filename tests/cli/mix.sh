@@ -136,7 +136,7 @@ status 2 mix $seen --labels lab -o mixed.png
 said "--labels is of an object in the photo"
 status 0 mix --help
 
-# A red plastic reflects white light at its surface, a rough red object does not.
+# Red plastic has a white highlight. A rough red object has none.
 moving
 for rough in 0.2 1; do
     sed "s/\"POSITION\":[45]}/&,\"material\":0/g; s/\"nodes\":\[/\"materials\":[{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.5,0,0,1],\"metallicFactor\":0,\"roughnessFactor\":$rough}}],&/" moving.gltf >"red$rough.gltf"

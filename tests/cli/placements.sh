@@ -24,7 +24,7 @@ done
 cp -r set/out set/first
 status 0 mix $seen $sun --placements set/list.txt -q --threads 1 --backend scalar
 check "threads and back ends change no placement" sh -c 'cmp set/out/a.png set/first/a.png && cmp set/out/b.pfm set/first/b.pfm && cmp set/out/c.ppm set/first/c.ppm'
-# A picture depends on its own lines only, and pixels far from an object are the photo's.
+# Other lines do not change a picture. Pixels far from all objects equal the photo.
 list 'out/alone.pfm tent.obj wall\n'
 status 0 mix $seen $sun --placements set/list.txt -q
 check "a placement does not depend on the others" cmp set/out/b.pfm set/out/alone.pfm

@@ -29,7 +29,7 @@ status 0 plan $corner --budget ms=16 --budget rate=1e4
 check "so are 160 units" grep -q "no setting meets the budget; the nearest takes [0-9.e+]* x the work" out.txt
 status 0 plan --help
 check "plan --help has budgets and examples" sh -c 'grep -q -- "--budget KEY" "$1" && grep -q "lambent plan demo" "$1"' sh out.txt
-# Live light has a tree of its own beside that of the cuts, and its work is not predicted.
+# Live light has a second tree beside that of the cuts. plan does not predict the work of live light.
 kib() { sed -n 's/^first points  *[0-9.kMG-]*  *[0-9.]*  *\([0-9]*\)\..*/\1/p' out.txt; }
 status 0 plan demo --size 32x24 --threads 1 --gather full
 full=$(kib)

@@ -249,7 +249,7 @@ said "give each object its place"
 status 2 $two --object white_box.obj --at 0,0,0 --object table.obj --at 3,0,1 --scale 1 --scale 2 --scale 3 -o bad.pfm
 status 2 relight --world demo --object demo --object demo --path path.txt -o bad.ppm
 
-# A world that changes along a path: each picture is that of its own world, and nothing of the one before stays.
+# A world that changes along a path: no picture depends on the worlds before.
 mkdir -p worlds
 { printf 'PF\n1 6\n-1.0\n'; repeated 9 "$one"; repeated 9 "$half"; } >worlds/evening.pfm
 printf '0,0,0\n0.05,0,0 evening.pfm\n0.05,0,0\n0.05,0,0 ../white.pfm\n' >worlds/path.txt

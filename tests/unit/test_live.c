@@ -501,31 +501,37 @@ static void behind_a_thin_wall_is_dark(void)
 
 #define KERNELS_OF_THIS(upper, lower) lmb_kernels_named(#lower),
 
+/* The number of back ends whose light differs from that of plain C. */
+static int differing_backends(const lmb_live_receiver *at)
+{
+    const lmb_kernels *const backends[] = {LMB_BACKENDS(KERNELS_OF_THIS)};
+    float plain[3], light[3];
+    int wrong = 0;
+    receive(plain, lmb_kernels_named("scalar"), at, 1);
+    for (int k = 0; k < COUNT(backends); ++k) {
+        if (backends[k] != NULL) {
+            receive(light, backends[k], at, 1);
+            wrong += memcmp(light, plain, sizeof plain) != 0;
+        }
+    }
+    return wrong;
+}
+
 /* On every backend, with every number of strata. */
 static void same_bytes(void)
 {
     const lmb_light lights[2] = {spot(vec3(0.6f, 1.8f, 0.5f), vec3(-0.5f, -1, -0.4f), 20, 35),
                                  point_light(vec3(-0.6f, 1.6f, 0.2f))};
-    const lmb_kernels *const scalar = lmb_kernels_named("scalar");
     test_rng r = {11};
     int wrong = 0;
     room_with_table();
     world_sphere(vec3(0.4f, 0.3f, -0.4f), 0.25f, 12, 20);
     light_world(lights, 2);
-    const lmb_kernels *const backends[] = {LMB_BACKENDS(KERNELS_OF_THIS)};
     for (int i = 0; i < 600; ++i) {
         lmb_live_receiver at = place_on(test_random(&r) % world.count, vec3(-0.7f, 1.5f, -0.7f), &r);
-        float plain[3];
         at.normal = i % 2 ? normalize3(add3(at.face, vec3(0.2f, 0.1f, -0.1f))) : at.face;
         live.strata = 1 + (int32_t)(test_random(&r) % LMB_LIVE_STRATA);
-        receive(plain, scalar, &at, 1);
-        for (int k = 0; k < COUNT(backends); ++k) {
-            float light[3];
-            if (backends[k] != NULL) {
-                receive(light, backends[k], &at, 1);
-                wrong += memcmp(light, plain, sizeof plain) != 0;
-            }
-        }
+        wrong += differing_backends(&at);
     }
     CHECK_MSG(wrong == 0, "%d differ", wrong);
 }
@@ -553,25 +559,15 @@ static void steady_light_is_right(void)
 static void steady_bytes(void)
 {
     const lmb_light lights[1] = {point_light(vec3(-0.6f, 1.6f, 0.2f))};
-    const lmb_kernels *const scalar = lmb_kernels_named("scalar");
     test_rng r = {12};
     int wrong = 0;
     room_with_table();
     light_world(lights, 1);
     build_steady();
-    const lmb_kernels *const backends[] = {LMB_BACKENDS(KERNELS_OF_THIS)};
     for (int i = 0; i < 300; ++i) {
         const lmb_live_receiver at = place_on(test_random(&r) % world.count, vec3(-0.7f, 1.5f, -0.7f), &r);
-        float plain[3];
         live.strata = 1 + (int32_t)(test_random(&r) % LMB_LIVE_STRATA);
-        receive(plain, scalar, &at, 1);
-        for (int k = 0; k < COUNT(backends); ++k) {
-            float light[3];
-            if (backends[k] != NULL) {
-                receive(light, backends[k], &at, 1);
-                wrong += memcmp(light, plain, sizeof plain) != 0;
-            }
-        }
+        wrong += differing_backends(&at);
     }
     CHECK_MSG(wrong == 0, "%d differ", wrong);
 }
@@ -846,7 +842,6 @@ static void under_a_sky(void)
 static void same_sky_bytes(void)
 {
     const lmb_kernels *const scalar = lmb_kernels_named("scalar");
-    const lmb_kernels *const backends[] = {LMB_BACKENDS(KERNELS_OF_THIS)};
     test_rng r = {53};
     int wrong = 0, lit = 0;
     room_with_hole(0.5f);
@@ -859,13 +854,7 @@ static void same_sky_bytes(void)
         sky.strata = 1 + (int32_t)(test_random(&r) % LMB_LIVE_STRATA);
         receive(plain, scalar, &at, 1);
         lit += plain[0] > 0.0f;
-        for (int k = 0; k < COUNT(backends); ++k) {
-            float light[3];
-            if (backends[k] != NULL) {
-                receive(light, backends[k], &at, 1);
-                wrong += memcmp(light, plain, sizeof plain) != 0;
-            }
-        }
+        wrong += differing_backends(&at);
     }
     CHECK_MSG(wrong == 0 && lit > 100, "%d differ; %d are lit", wrong, lit);
 }

@@ -342,8 +342,8 @@ static void test_formats(void)
     CHECK(lmb_texture_format_bytes(3, 5, 3, 2) == 0 && lmb_texture_format_bytes(LMB_TEXELS_PALETTE4, 5, 3, 9) == 0);
 }
 
-/* The smallest level shows from afar: its colour is in the palette, even if the texture's own colours, and those of the
- * large levels, fill it. */
+/* A texture far away shows the smallest level. The palette has the colour of this level, even if the colours of the large
+ * levels would fill the palette. */
 static void test_palette_from_afar(void)
 {
     enum { WIDE_T = 97, HIGH_T = 41, MOST = 4 * WIDE_T * HIGH_T * 2 };

@@ -176,7 +176,7 @@ static double picture_work(hard_stage *s, int scene)
                : HUGE_VAL;
 }
 
-/* Pixels of needles lie on as many surfaces, each lit by nodes of its own. */
+/* Each pixel of needles lies on another surface and needs a separate cut. */
 static void put_pictures(hard_list *list)
 {
     static const struct {

@@ -1,4 +1,4 @@
-/* mix_block.c: what an object blocks, seen from many directions. */
+/* mix_block.c: small pictures of an object from many directions, which show the blocked parts of the environment. */
 #include "mix_block.h"
 
 #include <float.h>

@@ -1,5 +1,5 @@
-/* mix_block.h: what an object blocks, seen from many directions, in small pictures of it. They are in mesh space, so
- * all placements of an object share those that do not depend on a light. */
+/* mix_block.h: small pictures of an object from many directions, which show the blocked parts of the environment. The
+ * pictures are in mesh space, so all placements of an object share those that do not depend on a light. */
 #ifndef MIX_BLOCK_H
 #define MIX_BLOCK_H
 

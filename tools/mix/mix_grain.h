@@ -11,7 +11,7 @@ enum { MIX_GRAIN_STEPS = 8 };
 /* Standard deviations of the square root of light, by brightness and channel. */
 typedef struct mix_grain {
     float sigma[MIX_GRAIN_STEPS][3];
-    uint32_t seed; /* from the photo's pixels, so each photo of a sequence has noise of its own */
+    uint32_t seed; /* from the photo's pixels, so the noise differs between photos of a sequence */
 } mix_grain;
 
 /* mix_grain_find: estimates the noise from differences of neighbours in squares of 2 x 2 pixels, by brightness. Robust:

@@ -12,7 +12,7 @@ struct mix_labels {
     float *depth;   /* m along the camera's axis; 0: the object is not visible */
     float *normal;  /* 3: unit, in camera space: x right, y up, z back */
     float *rgb;     /* 3: the object's light times `covered` */
-    float *object;  /* 0: none, else 1 + its number */
+    float *object;  /* 0: none, else 1 + the number of the object */
     int32_t count;  /* objects in the picture, with their first ids, files and places */
     uint32_t first[MIX_LABEL_OBJECTS];
     const char *path[MIX_LABEL_OBJECTS];
@@ -27,7 +27,7 @@ void mix_labels_lay_out(struct mix_labels *l, size_t pixels);
 int mix_labels_take(mix_job *j, report *r);
 
 /* mix_labels_sample: stores one sample's labels at some pixels of a tile; the first sample that shows the object
- * counts. mix_labels_cover: stores the object's coverage of each pixel, and its light. */
+ * counts. mix_labels_cover: stores the object's coverage and light of each pixel. */
 void mix_labels_sample(const mix_job *j, const lmb_tile *real, const lmb_tile *object, uint64_t shown);
 void mix_labels_cover(const mix_job *j, const lmb_tile *real, const lmb_radiance *over,
                       const float covered[LMB_TILE_PIXELS]);

@@ -11,7 +11,7 @@ enum { PARTS = 4 /* of a guessed sun's samples, one for each sample of the pictu
 
 #define THROWN 0.75f /* share of light reflected by metal that is treated as diffuse: the rest is directional */
 #define MATT   0.08f /* maximum reflectance of a non-metal */
-#define RIM    0.15f /* the environment does not show what lies right behind the object's rim */
+#define RIM    0.15f /* the environment has no surfaces directly behind the object's rim */
 #define SMOOTH 0.7f  /* roughness from which on a non-metal has no visible highlight */
 
 /* --- metals ------------------------------------------------------------------------------------------------------- */

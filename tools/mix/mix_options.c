@@ -75,7 +75,7 @@ static const option_row photo_rows[] = {
 #if !defined(OPTIONS_WITHOUT_HELP)
     {.name = "--missing-depth", .kind = OPTION_WORD, AT(source.may_lack_depth), .words = missing,
      .help = HELP("of frames without a depth file, or TUM photos without a depth within 0.02 s. skip: they are left "
-             "out (default); estimate: their depth is what earlier frames and the planes in them show from the new "
+             "out (default); estimate: depth comes from surfaces and planes of earlier frames, seen from the new "
              "pose; the first frame must have depth")},
 #endif
     {.name = "--photo", .value = "FILE", .kind = OPTION_TEXT, AT(source.photo), .file = OPTION_READS,
@@ -240,8 +240,8 @@ static int complete_placements(const mix_options *o, report *r)
 {
     if (o->object != NULL || o->out != NULL || o->at != MIX_AT_CENTRE || o->on != MIX_ON_ANY || o->turn_deg != 0.0f ||
         o->scale > 0.0f || o->fit) {
-        return report_fail(r, "--placements: its lines have object, place, turn, size and output; leave --object, "
-                              "--at, --on, --turn, --scale, --fit and -o out");
+        return report_fail(r, "--placements: lines of the list have object, place, turn, size and output; leave "
+                              "--object, --at, --on, --turn, --scale, --fit and -o out");
     }
     if (o->frames != NULL || o->stats != NULL || o->show != MIX_FINAL || o->specular > 0.0f) {
         return report_fail(r, "--placements: leave --frames, --stats, --show and --roughness out");

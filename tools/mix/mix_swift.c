@@ -55,7 +55,7 @@ typedef struct placed {
     lmb_vec3 last_normal;
     float last_all[3]; /* irradiance of the environment on it */
     float spread[MIX_SWIFT_LIGHTS];
-    float ground[GRID * GRID][3]; /* share of its light that is left */
+    float ground[GRID * GRID][3]; /* share of the light that is left */
     void *memory;
 } placed;
 
@@ -226,7 +226,7 @@ static void whole_env(float all[3], placed *o, lmb_vec3 n)
     memcpy(all, o->last_all, sizeof o->last_all);
 }
 
-/* The same, and the part that the object blocks, less what the object reflects instead. */
+/* The same. Also sums the light that the object blocks, minus the light that the object reflects instead. */
 static void block_env(float all[3], float blocked[3], placed *o, lmb_vec3 p, lmb_vec3 n)
 {
     const lmb_vec3 off = plus(o->block->middle, p, -1.0f);
@@ -424,7 +424,7 @@ static void place(placed *o, const mix_swift *s, const mix_spot *spot)
 
 /* --- real surfaces ------------------------------------------------------------------------------------------------ */
 
-/* About the share of its light that the object can block from a surface. */
+/* An estimate of the share of a surface's light that the object can block. */
 static float share_of(const placed *o, lmb_vec3 at, lmb_vec3 normal, float wide)
 {
     const lmb_vec3 d = plus(o->middle, at, -1.0f);

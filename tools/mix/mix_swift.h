@@ -1,6 +1,6 @@
-/* mix_swift.h: many placements of objects in one photo. Everything about the photo is computed once, and what an object
- * blocks of the environment once for all its placements. Light is simpler than in mix_draw.h: no voxels; the object
- * reflects light once, in its mean colour. */
+/* mix_swift.h: many placements of objects in one photo. Everything about the photo is computed once. The blocked part
+ * of the environment is computed once for each object. Light is simpler than in mix_draw.h: there are no voxels, and an
+ * object reflects light once, in the mean colour. */
 #ifndef MIX_SWIFT_H
 #define MIX_SWIFT_H
 
@@ -23,7 +23,7 @@ typedef struct mix_spot {
     lmb_mat4 placed;
     float scale;
     int32_t plane; /* under or behind it, or -1 */
-    float lift;    /* 1/m: what the plane is nearer at its foot than measured on the whole */
+    float lift;    /* 1/m: inverse depth of the plane at the foot, minus that of the whole plane */
     int hangs;
 } mix_spot;
 

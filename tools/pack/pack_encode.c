@@ -76,8 +76,8 @@ static size_t level_texels(const lmb_texture *t, int32_t level)
 }
 
 /* Sorts the texels of all levels into cells of 32 x 32 x 32 colours, separately for each half of alpha. Each level
- * counts as much as the largest one: from afar its few texels are the whole picture. Returns the number of cells with
- * texels, which come first. */
+ * counts as much as the largest one, because a texture far away shows only a small level. Returns the number of cells
+ * with texels, which come first. */
 static int find_cells(bunch *cell, const lmb_texture *t, int alpha)
 {
     const uint8_t *p = t->texels;

@@ -311,7 +311,7 @@ static int write(stage *s, const char *path, report *r)
 }
 
 #if !defined(OPTIONS_WITHOUT_HELP) /* the web page has no paths */
-/* A path may name another world, as when clouds move. Its light counts at once, so it is not blended in. [S20 S28] */
+/* A path may name another world, for example if clouds move. The new light is not blended with the old. [S20 S28] */
 static int change_world(stage *s, const char *name, report *r)
 {
     if (!relight_light_change(s->light, s->o, name, r)) {
@@ -474,7 +474,7 @@ static int can_be_read(const char *name, report *r)
 }
 #endif
 
-/* The worlds of a path are read when they begin, but before the first picture each is tried. */
+/* Tries to read all worlds of a path before the first picture. Each is read again when the path reaches it. */
 static int check_worlds(const stage *s, report *r)
 {
 #if !defined(OPTIONS_WITHOUT_HELP)
