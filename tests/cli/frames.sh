@@ -73,7 +73,7 @@ check "and the next one is" test -s frames/m_04.pfm
 # given, because shadows of a guessed light from all the sky are recomputed for each frame.
 status 0 render demo --eye 0.5,1.25,2.5 --target 0.5,1,-1 --size 40x30 --quality draft -o frames/h.color.pfm
 status 0 render demo --eye 0.5,1.25,2.5 --target 0.5,1,-1 --size 40x30 --show depth -o frames/h.depth.pfm
-for i in 00 01 02 03 04 05 06 07; do
+for i in 00 01 02 03; do
     ln -f frames/h.color.pfm "frames/h$i.color.pfm" && ln -f frames/h.depth.pfm "frames/h$i.depth.pfm"
     printf '{"fx": 36.2, "fy": 36.2, "cx": 19.5, "cy": 14.5, "depth_unit_mm": 1000, "camera_to_world": [[1,0,0,%s],[0,1,0,0],[0,0,1,0],[0,0,0,1]]}' \
         "$([ $((1$i % 2)) = 0 ] && echo 0 || echo 0.000001)" >"frames/h$i.json"
@@ -81,7 +81,7 @@ for i in 00 01 02 03 04 05 06 07; do
 done >frames/tremble.txt
 status 0 mix --frames frames/tremble.txt --object tent.obj --fit --voxels 5 --light sun:0,0,0:0.630,0.774,-0.063:1.171,0.862,0.543:35 \
     -o frames/h_%02d.pfm
-check "a camera that trembles changes nothing" sh -c '"$1" compare "$2" "$3" | grep -q "rmse 0\.000[0-4]"' sh "$TOOL" frames/h_01.pfm frames/h_07.pfm
+check "a camera that trembles changes nothing" sh -c '"$1" compare "$2" "$3" | grep -q "rmse 0\.000[0-4]"' sh "$TOOL" frames/h_01.pfm frames/h_03.pfm
 # A unit of depth must be valid. --depth-scale does not hide an invalid one.
 for unit in 0 -0 -1 1e-7 1e7 1e300 '"1"' null '[1]'; do
     sed "s/\"depth_unit_mm\": 1000/\"depth_unit_mm\": $unit/" frames/f0.json >frames/unit.json

@@ -78,7 +78,7 @@ refused_at_start src/base/exact.c -O2 -fno-signed-zeros
 # A first build for a Cortex-M4F, with the compiler's default flags.
 if arm=$(command -v arm-none-eabi-gcc); then
     for file in src/isa/isa_scalar.c src/base/view.c src/transfer/transfer_many_lights.c; do
-        check "$file for a Cortex-M4F" "$arm" -O1 -fexpensive-optimizations -mcpu=cortex-m4 -mfpu=fpv4-sp-d16 -mthumb -mfloat-abi=hard -Iinclude \
+        check "$file for a Cortex-M4F" "$arm" -O1 -fexpensive-optimizations -fno-inline -mcpu=cortex-m4 -mfpu=fpv4-sp-d16 -mthumb -mfloat-abi=hard -Iinclude \
             -isystem platform/freestanding -S -o "$B/guard/m4f.s" "$file"
         check "$file: fused multiply-adds" sh -c '! grep -E "vfn?m[as]" "$1"' sh "$B/guard/m4f.s"
     done
