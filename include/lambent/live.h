@@ -133,6 +133,7 @@ typedef struct lmb_live {
     int32_t strata;         /* 1 .. LMB_LIVE_STRATA; default 64 */
     int32_t steady;         /* 1: lights and receivers may move a little without a jump of the light, for about twice
                                as many segments; set it before lmb_live_build. Default 0 */
+    int32_t built;          /* 1 + steady of the last lmb_live_build; 0: none */
     double sent[3];         /* flux of the maps' first points, W */
     float split;            /* a node is divided at points nearer than sqrt(split) times the radius; default 16 */
 } lmb_live;

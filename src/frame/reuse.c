@@ -61,10 +61,21 @@ static int same_bvh(const lmb_frame *was, const lmb_frame *f)
            a->triangle_cap == b->triangle_cap && a->node_cap == b->node_cap;
 }
 
+/* Has it been built since lmb_live_init, with its present settings? */
+static int is_built(const lmb_live *live)
+{
+#if LMB_LIVE
+    return live != NULL && live->built == 1 + live->steady;
+#else
+    (void)live;
+    return 0;
+#endif
+}
+
 static int same_tree(const lmb_frame *a, const lmb_frame *b)
 {
     const int live = requires_live(a) || requires_live(b);
-    if (live && (a->live != b->live || a->gather_step != b->gather_step || a->show != b->show ||
+    if (live && (a->live != b->live || !is_built(b->live) || a->gather_step != b->gather_step || a->show != b->show ||
                  a->bounces != b->bounces || a->many_lights != b->many_lights)) {
         return 0; /* texels of the required tree may not have been collected */
     }

@@ -596,6 +596,7 @@ lmb_status lmb_live_build(lmb_live *live, const lmb_scene *scene)
         return LMB_ERR_ARG;
     }
     live->chunks = live->top = live->points = live->merged = 0;
+    live->built = 1 + live->steady;
     memset(&b, 0, sizeof b);
     b.live = live;
     live->scene = scene;

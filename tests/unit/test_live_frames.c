@@ -239,6 +239,20 @@ static void test_history(void)
         is_as_cold(cold, i / MOMENTS, &whole, i % MOMENTS);
         is_as_cold(cold, i % MOMENTS, &whole, i / MOMENTS);
     }
+    /* A setting of the tree that changes, or a tree that was laid out again, is no reason to keep the old one. */
+    for (int i = 0; i < 2; ++i) {
+        lay_out(&s);
+        frame.bounces = 1;
+        is_as_cold(cold, MOMENTS - 1, &whole, MOMENTS - 1);
+    }
+    frame.live->steady = 1;
+    CHECK(reused_frame(&render, &frame, &whole) == LMB_OK);
+    const uint64_t changed = hash_of();
+    memset(&render, 0, sizeof render);
+    CHECK(lmb_render_frame(&render, &frame) == LMB_OK && hash_of() == changed && changed != cold[MOMENTS - 1]);
+    frame.live->steady = 0;
+    is_as_cold(cold, MOMENTS - 1, &whole, MOMENTS - 1);
+    frame.scratch = scratches;
     for (int i = 0; i < COUNT(ways); ++i) {
         frame.eye.depth.height = frame.eye.id.height = ways[i].rows;
         for (int k = MOMENTS - 1; k >= 0; --k) {
