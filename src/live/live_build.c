@@ -17,7 +17,7 @@ enum {
     GROUPS = 4,      /* planes per cell; further ones join the closest */
     GROUP_SHIFT = 30, /* of a key, while points are grouped by plane */
     FINE_SHIFT = 21, /* of the keys of a node's own cells: cells of 1/4 */
-    CROWD = 256,     /* more points than this in a cell of 1/256 of the world get finer cells, */
+    CROWD = 16,      /* more points than this in a cell of 1/512 of the world get finer cells, */
     ROUNDS = 3,      /* each time by 512 */
     PARTS = 64,      /* max parts of a node; the last takes the rest */
     TOP = LMB_LIVE_CUT / 2 * LMB_LIVE_NODES, /* nodes of the first level: half of a cut */

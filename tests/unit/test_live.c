@@ -891,6 +891,18 @@ static void sky_refusals(void)
     CHECK(lmb_many_lights_sky(&few, &stream, scene) == LMB_ERR_ARG); /* not built */
 }
 
+/* The most points that one leaf of the tree holds. */
+static uint32_t points_of_leaf(void)
+{
+    uint32_t most = 0;
+    for (uint32_t k = 0; k < live.chunks * LMB_LIVE_NODES; ++k) {
+        const uint32_t count = live.chunk[k / LMB_LIVE_NODES].count[k % LMB_LIVE_NODES];
+        const uint32_t points = (count & LMB_LIVE_LEAF) != 0 ? count & ~LMB_LIVE_LEAF : 0;
+        most = points > most ? points : most;
+    }
+    return most;
+}
+
 /* A room on a ground of 4 km: all its first points lie in one cell of the world. */
 static void in_a_wide_world(void)
 {
@@ -905,6 +917,7 @@ static void in_a_wide_world(void)
     light_world(lights, 2);
     const uint32_t inside = world.count - 2;
     double off = 0.0, mean = 0.0;
+    CHECK_MSG(points_of_leaf() <= LMB_LIVE_NODES, "%u points in a leaf", (unsigned)points_of_leaf());
     for (int i = 0; i < 200; ++i) {
         lmb_live_receiver at = place_on(test_random(&r) % inside, eye, &r);
         float light[3];
