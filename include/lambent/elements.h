@@ -40,7 +40,7 @@ typedef struct lmb_elements {
     lmb_tree tree; /* of one face: the texel of Z order i is element i */
     lmb_element *data;
     uint32_t cap, count;
-    float side;  /* m: upper limit of a piece's side; triangles under half of it may be merged */
+    float side;  /* m: upper limit of a piece's side, in the scene's core; triangles under half of it may be merged */
     float level; /* W/m2, R + G + B: approximate mean irradiance of the elements */
 } lmb_elements;
 
@@ -71,8 +71,9 @@ lmb_status lmb_elements_init(lmb_elements *out, uint32_t n, void *memory, size_t
  * Triangles are halved at their longest edge until it is at most `side`. Triangles under half of `side` that face the
  * same side of space and lie in the same cell of half of `side` become one element, at the position of the largest. The
  * area side^2 begins at a size that certainly needs more than n elements, and doubles until they fit, which they always
- * do in the end: no area is lost. A single-sided material has no element at the back. Holes of masked materials are
- * left out, measured at four points a piece. Triangles that lmb_draw would drop are left out.
+ * do in the end: no area is lost. Outside the scene's core, elements are larger: twice as long at the core's size from
+ * it. A single-sided material has no element at the back. Holes of masked materials are left out, measured at four
+ * points a piece. Triangles that lmb_draw would drop are left out.
  * Cost: some passes over the triangles, about 1 us each, and a sort. Returns LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_elements_build(lmb_elements *inout, const lmb_scene *scene, const lmb_tree *lights);
 

@@ -60,9 +60,19 @@ typedef struct element_maker {
     uint32_t *slot; /* index of an element + 1, or 0 */
     uint32_t mask;
     uint32_t pieces; /* of divided triangles */
-    float side2;
+    float side2;     /* in the core */
+    float per;       /* 1 / the core's size; 0: no core */
     int full;
 } element_maker;
+
+/* Side of a piece's elements over that in the core: 1 in the core, 2 at the core's size from it. A ground or a terrain
+ * around an object would take nearly all elements otherwise. */
+static float coarseness(const element_maker *m, const lmb_vec3 p[3])
+{
+    const lmb_core *c = &m->scene->core;
+    const lmb_vec3 low = min3(min3(p[0], p[1]), p[2]), high = max3(max3(p[0], p[1]), p[2]);
+    return 1.0f + m->per * length3(max3(max3(sub3(c->low, high), sub3(low, c->high)), vec3(0, 0, 0)));
+}
 
 /* Elements are sorted by facing side: key / 2^27 is the side. */
 static uint32_t element_facing(const lmb_element *e) { return e->key >> (3 * PIECE_Z_BITS); }
@@ -74,6 +84,7 @@ static int32_t cell_along(float at, float low, float per_cell)
 
 typedef struct element_cell {
     int32_t x, y, z;
+    float per; /* cells in a metre */
 } element_cell;
 
 /* The box that contains nearly all of the scene. Outliers are clamped to the box, so that they do not take cells from
@@ -81,21 +92,25 @@ typedef struct element_cell {
 static lmb_vec3 low_of(const lmb_scene *s) { return s->core.faces > 0 ? s->core.wide_low : s->bounds_min; }
 static lmb_vec3 high_corner(const lmb_scene *s) { return s->core.faces > 0 ? s->core.wide_high : s->bounds_max; }
 
-static element_cell cell_of_place(const element_maker *m, lmb_vec3 p)
+/* Cells double in size as the elements do. */
+static element_cell cell_of_piece(const element_maker *m, const lmb_vec3 corner[3])
 {
-    const float per = 2.0f / sqrtf(m->side2);
-    const lmb_vec3 low = low_of(m->scene);
+    const lmb_vec3 p = piece_middle(corner), low = low_of(m->scene);
     element_cell c;
-    c.x = cell_along(p.x, low.x, per);
-    c.y = cell_along(p.y, low.y, per);
-    c.z = cell_along(p.z, low.z, per);
+    c.per = 2.0f / sqrtf(m->side2);
+    for (float times = coarseness(m, corner); times >= 2.0f; times *= 0.5f) {
+        c.per *= 0.5f;
+    }
+    c.x = cell_along(p.x, low.x, c.per);
+    c.y = cell_along(p.y, low.y, c.per);
+    c.z = cell_along(p.z, low.z, c.per);
     return c;
 }
 
 /* The slot of the element with e's cell and side, or the empty slot for it. */
 static uint32_t *find_slot(const element_maker *m, const lmb_element *e)
 {
-    const element_cell c = cell_of_place(m, piece_middle(e->corner));
+    const element_cell c = cell_of_piece(m, e->corner);
     uint32_t h = (uint32_t)c.x * 73856093u ^ (uint32_t)c.y * 19349663u ^ (uint32_t)c.z * 83492791u ^
                  element_facing(e) * 2654435761u;
     h ^= h >> 15;
@@ -105,8 +120,8 @@ static uint32_t *find_slot(const element_maker *m, const lmb_element *e)
             return slot;
         }
         const lmb_element *other = &m->out->data[*slot - 1];
-        const element_cell o = cell_of_place(m, piece_middle(other->corner));
-        if (o.x == c.x && o.y == c.y && o.z == c.z && element_facing(other) == element_facing(e)) {
+        const element_cell o = cell_of_piece(m, other->corner);
+        if (o.x == c.x && o.y == c.y && o.z == c.z && o.per == c.per && element_facing(other) == element_facing(e)) {
             return slot;
         }
     }
@@ -240,6 +255,13 @@ static int enter_first(surface_piece *p, turn *t)
     return !done;
 }
 
+/* Squared length of the longest edge that elements have at a piece. */
+static float side2_at(const element_maker *m, const surface_piece *p)
+{
+    const float times = coarseness(m, p->corner);
+    return m->side2 * (times * times);
+}
+
 /* Stores turns instead of pending pieces: 28 bytes of stack per halving instead of 60. */
 static void add_source(element_maker *m, const piece_source *s)
 {
@@ -247,12 +269,12 @@ static void add_source(element_maker *m, const piece_source *s)
     surface_piece p = {{{0, 0, 0}}, {0, 1, 0}, {0, 0, 1}};
     int depth = 0, from = 0;
     memcpy(p.corner, s->triangle.corner, sizeof p.corner);
-    if (longest_edge(&from, &p) * 4.0f < m->side2) {
+    if (longest_edge(&from, &p) * 4.0f < side2_at(m, &p)) {
         add_piece(m, s, &p, 1);
         return;
     }
     do {
-        while (depth < MAX_TRIANGLE_HALVINGS && longest_edge(&from, &p) > m->side2) {
+        while (depth < MAX_TRIANGLE_HALVINGS && longest_edge(&from, &p) > side2_at(m, &p)) {
             enter_second(&p, &turns[depth++], from);
         }
         add_piece(m, s, &p, 0);
@@ -375,6 +397,7 @@ lmb_status lmb_elements_build(lmb_elements *inout, const lmb_scene *scene, const
     }
     m.out = inout;
     m.scene = scene;
+    m.per = scene->core.faces > 0 ? 1.0f / maxf(largest3(sub3(scene->core.high, scene->core.low)), 1e-12f) : 0.0f;
     m.slot = (uint32_t *)(void *)inout->tree.node;
     m.mask = 2 * inout->cap - 1;
     /* A piece's area is at most half of side^2, so the first trial is either much too fine or consists of small

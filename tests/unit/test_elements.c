@@ -113,6 +113,42 @@ static void check_area(const char *name, uint32_t n, double want)
     }
 }
 
+/* A box of 4 m on a ground of 40 m, of two triangles or of 800: elements on the box are small, those of the ground grow
+ * with the distance. */
+static void test_core(void)
+{
+    for (int small = 0; small < 2; ++small) {
+        float on_box = 0.0f, far_off = 0.0f;
+        lmb_elements e;
+        world_begin(0.5f, 0.5f, 0.5f);
+        world_box(vec3(0, 2, 0), 2.0f);
+        for (int i = 0; i < (small ? 400 : 1); ++i) {
+            const lmb_vec3 at = vec3(2.0f * (float)(i % 20) - 19.0f, 0, 2.0f * (float)(i / 20) - 19.0f);
+            world_quad(small ? at : vec3(0, 0, 0), mul3(Z, small ? 1.0f : 20.0f), mul3(X, small ? 1.0f : 20.0f));
+        }
+        CHECK(world_end() == LMB_OK);
+        world.scene.core.low = world.scene.core.wide_low = vec3(-2, 0, -2);
+        world.scene.core.high = world.scene.core.wide_high = vec3(2, 4, 2);
+        world.scene.core.faces = 2;
+        memset(&e, 0, sizeof e);
+        CHECK(lmb_elements_init(&e, ELEMENTS, element_memory, sizeof element_memory) == LMB_OK);
+        CHECK(lmb_elements_build(&e, &world.scene, NULL) == LMB_OK);
+        for (uint32_t i = 0; i < e.count; ++i) {
+            const lmb_element *own = &e.data[i];
+            if (own->id <= 12) {
+                on_box = maxf(on_box, own->area);
+            } else if (fabsf(own->corner[0].x) > 15.0f) {
+                far_off = maxf(far_off, own->area);
+            }
+        }
+        CHECK_MSG(on_box < 1.5f && far_off > 4.0f * on_box, "%d: areas of %g and %g m2, side %g", small,
+                  (double)on_box, (double)far_off, (double)e.side);
+        const double want = 2.0 * world_area(0, world.count);
+        CHECK_MSG(fabs(element_area(&e) / want - 1.0) < 1e-4, "%g for %g m2", element_area(&e), want);
+        memset(&world.scene.core, 0, sizeof world.scene.core);
+    }
+}
+
 static void test_area(void)
 {
     static const uint32_t counts[] = {64, 256, ELEMENTS};
@@ -420,6 +456,7 @@ void test_elements(void)
 {
     test_memory();
     test_area();
+    test_core();
     test_sliver();
     test_dropped();
     test_sides();
