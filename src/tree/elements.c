@@ -65,13 +65,16 @@ typedef struct element_maker {
     int full;
 } element_maker;
 
+#define MAX_COARSENESS 65536.0f /* lengths near the largest float would be infinite */
+
 /* Side of a piece's elements over that in the core: 1 in the core, 2 at the core's size from it. A ground or a terrain
  * around an object would take nearly all elements otherwise. */
 static float coarseness(const element_maker *m, const lmb_vec3 p[3])
 {
     const lmb_core *c = &m->scene->core;
     const lmb_vec3 low = min3(min3(p[0], p[1]), p[2]), high = max3(max3(p[0], p[1]), p[2]);
-    return 1.0f + m->per * length3(max3(max3(sub3(c->low, high), sub3(low, c->high)), vec3(0, 0, 0)));
+    const float away = length3(max3(max3(sub3(c->low, high), sub3(low, c->high)), vec3(0, 0, 0)));
+    return 1.0f + minf(m->per * away, MAX_COARSENESS);
 }
 
 /* Elements are sorted by facing side: key / 2^27 is the side. */
