@@ -160,7 +160,8 @@
 #define LMB_TRANSFER LMB_TREES
 #endif
 
-/* 0: textures must be RGBA8; scenes with other formats are refused. Saves 0.3 KiB of ROM on a Cortex-M4F. */
+/* 0: textures and vertex colours must be RGBA8; scenes with other formats are refused. Saves 0.4 KiB of ROM on a
+ * Cortex-M4F. */
 #ifndef LMB_TEXTURE_FORMATS
 #define LMB_TEXTURE_FORMATS LMB_TREES
 #endif

@@ -50,7 +50,8 @@ int lmb_triangle_shape(lmb_vec3 *normal, float *area, const lmb_triangle *triang
  *   view  the frame's camera, as in lmb_draw; (x, y) counts from the frame's first pixel.
  *   id    need not be the surface that the pixel shows.
  * If the pixel's centre is outside the triangle, the value of a point on the edge is returned. Returns 0 if the id has
- * no triangle or a pointer is null. The level of the texture is 0. Cost: a binary search, and a texture lookup. */
+ * no triangle or a pointer is null. The texture's level is that of colours; for materials that are only masked, and in
+ * builds without LMB_MULTISAMPLE, it is 0. Cost: a binary search, and a texture lookup. */
 float lmb_triangle_alpha(const lmb_view *view, const lmb_scene *scene, uint32_t id, int32_t x, int32_t y);
 
 /* lmb_mesh_vertex: decode a vertex of a mesh.

@@ -17,9 +17,9 @@
  * No kind occurs twice. Parts follow the table and do not overlap. Unknown kinds are skipped. Records, in words; floats
  * are binary32:
  *   SCENE      bounds_min, bounds_max; lmb_core: low, high, wide_low, wide_high, faces; then 0
- *   MESHES     vertices, triangles, position_format | uv_format << 8 | index_format << 16 | tangent_format << 24,
- *              offsets of positions, normals, tangents, uvs, colours, indices; position_scale, position_offset,
- *              uv_scale; then 0
+ *   MESHES     vertices, triangles, position_format | uv_format << 8 | index_format << 16 | tangent_format << 24 |
+ *              colour_format << 28, offsets of positions, normals, tangents, uvs, colours, indices; position_scale,
+ *              position_offset, uv_scale; then 0
  *   MATERIALS  albedo, alpha, alpha_cutoff, texture, flags, normal_map, normal_scale, emission, specular, roughness,
  *              emission_map, metal_map, metallic, as in lmb_material; then 0
  *   TEXTURES   offset, width | height << 16, levels | format << 8 | wrap_s << 16 | wrap_t << 24, filter

@@ -14,6 +14,9 @@ enum { LMB_POSITION_F32 = 0, /* float x, y, z */
        LMB_POSITION_I16 = 1  /* int16 x, y, z, 0: position_scale * v + position_offset */ };
 enum { LMB_UV_F32 = 0, /* float u, v */
        LMB_UV_U16 = 1  /* uint16 u, v: uv_scale * v / 65535 */ };
+enum { LMB_COLOUR_RGBA8 = 0, /* bytes: code / 255 */
+       LMB_COLOUR_RGBA16 = 1 /* uint16: R G B are (code / 65535)^2, so dark colours keep their ratios; A is
+                                code / 65535. Needs a build with LMB_TEXTURE_FORMATS */ };
 enum { LMB_INDEX_NONE = 0, /* vertices in order, three a triangle */
        LMB_INDEX_U16 = 1, LMB_INDEX_U32 = 2 };
 enum { LMB_TANGENT_BY_UV = 0, /* a normal map's second axis points towards smaller v of the triangle */
@@ -26,13 +29,13 @@ typedef struct lmb_mesh {
     const int16_t *normals;  /* octahedral, two a vertex (lmb_octahedral_encode); NULL: flat shading */
     const int16_t *tangents; /* octahedral, towards larger u, for normal maps; NULL: computed per triangle */
     const void *uvs;         /* NULL: no texture coordinates, (0, 0) */
-    const uint8_t *colours;  /* RGBA8, linear, multiplies the albedo; NULL: white */
+    const uint8_t *colours;  /* linear RGBA in the colour_format, multiplies the albedo; NULL: white */
     const void *indices;     /* uint16 or uint32; NULL with LMB_INDEX_NONE */
     uint32_t vertex_count;
     uint32_t triangle_count;
     lmb_vec3 position_scale, position_offset; /* LMB_POSITION_I16 only */
     float uv_scale[2];                        /* LMB_UV_U16 only */
-    uint8_t position_format, uv_format, index_format, tangent_format;
+    uint8_t position_format, uv_format, index_format, tangent_format, colour_format;
 } lmb_mesh;
 
 enum { LMB_WRAP_REPEAT = 0, LMB_WRAP_CLAMP = 1, LMB_WRAP_MIRROR = 2 };

@@ -79,7 +79,7 @@ static int is_mesh(pack_source *s, uint32_t i)
         index > LMB_INDEX_U32 || corners > s->indices ||
         !may_hold(s, w[3], vertices * (position == LMB_POSITION_F32 ? 12 : 8)) || !may_hold(s, w[4], vertices * 4) ||
         !may_hold(s, w[5], vertices * 4) || !may_hold(s, w[6], vertices * (uv == LMB_UV_F32 ? 8 : 4)) ||
-        !may_hold(s, w[7], vertices * 4) || !may_hold(s, w[8], corners)) {
+        !may_hold(s, w[7], vertices * (w[2] >> 28 == LMB_COLOUR_RGBA8 ? 4 : 8)) || !may_hold(s, w[8], corners)) {
         return 0;
     }
     s->indices -= corners;

@@ -40,7 +40,8 @@ void lmb_pack_take_mesh(lmb_mesh *out, const lmb_pack *p, uint32_t i)
     out->position_format = (uint8_t)(w[2] & 255u);
     out->uv_format = (uint8_t)(w[2] >> 8 & 255u);
     out->index_format = (uint8_t)(w[2] >> 16 & 255u);
-    out->tangent_format = (uint8_t)(w[2] >> 24);
+    out->tangent_format = (uint8_t)(w[2] >> 24 & 15u);
+    out->colour_format = (uint8_t)(w[2] >> 28);
     out->positions = data_at(p, w[3]);
     out->normals = (const int16_t *)data_at(p, w[4]);
     out->tangents = (const int16_t *)data_at(p, w[5]);

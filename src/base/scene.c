@@ -32,7 +32,8 @@ static int is_aligned(const void *p) { return ((uintptr_t)p & 3u) == 0; }
 lmb_status lmb_check_mesh(const lmb_mesh *m)
 {
     if (m->position_format > LMB_POSITION_I16 || m->uv_format > LMB_UV_U16 || m->index_format > LMB_INDEX_U32 ||
-        m->tangent_format > LMB_TANGENT_SIDED)
+        m->tangent_format > LMB_TANGENT_SIDED ||
+        m->colour_format > (LMB_TEXTURE_FORMATS ? LMB_COLOUR_RGBA16 : LMB_COLOUR_RGBA8))
         return LMB_ERR_FORMAT;
     if ((m->vertex_count && !m->positions) || m->triangle_count > MAX_MESH_TRIANGLES)
         return LMB_ERR_ARG;

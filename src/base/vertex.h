@@ -57,10 +57,27 @@ static inline float mesh_tangent_side(const lmb_mesh *m, uint32_t vertex)
     return (m->tangents[(size_t)vertex * 2] & 1) != 0 ? 1.0f : -1.0f;
 }
 
+static inline int mesh_colours_are_wide(const lmb_mesh *m)
+{
+    return LMB_TEXTURE_FORMATS && m->colour_format == LMB_COLOUR_RGBA16;
+}
+
+/* Channel k of a vertex in LMB_COLOUR_RGBA16, linear. */
+static inline float mesh_wide_colour(const lmb_mesh *m, uint32_t vertex, int k)
+{
+    const float v = (float)((const uint16_t *)(const void *)m->colours)[(size_t)vertex * 4 + (size_t)k] / 65535.0f;
+    return k < 3 ? v * v : v;
+}
+
 /* Linear RGBA, 0 .. 1; white without a stream. */
 static inline void mesh_colour(const lmb_mesh *m, uint32_t vertex, float out[4])
 {
     int32_t k;
+    if (mesh_colours_are_wide(m) && m->colours) {
+        for (k = 0; k < 4; ++k)
+            out[k] = mesh_wide_colour(m, vertex, k);
+        return;
+    }
     for (k = 0; k < 4; ++k)
         out[k] = m->colours ? (float)m->colours[(size_t)vertex * 4 + (size_t)k] / 255.0f : 1.0f;
 }
@@ -111,7 +128,7 @@ MESH_HINT void mesh_vertex_soon(const lmb_mesh *m, uint32_t vertex)
 {
     MESH_SOON((const uint8_t *)m->positions + (size_t)vertex * (m->position_format == LMB_POSITION_F32 ? 12 : 8));
     if (m->colours != NULL) {
-        MESH_SOON(m->colours + (size_t)vertex * 4);
+        MESH_SOON(m->colours + (size_t)vertex * (mesh_colours_are_wide(m) ? 8 : 4));
     }
     if (m->uvs != NULL) {
         MESH_SOON((const uint8_t *)m->uvs + (size_t)vertex * (m->uv_format == LMB_UV_F32 ? 8 : 4));

@@ -52,7 +52,8 @@ typedef struct lmb_resolve_batch {
     float face[3][LMB_SLOTS];          /* out: `plane` turned to the viewer. If albedo_only, wide kernels put the
                                           plane's height above the eye into face[0] for perspective views */
     float w_min[LMB_SLOTS], w_max[LMB_SLOTS]; /* out: range of the corners along the view axis */
-    float albedo[3][3][LMB_SLOTS];     /* out: reflectance, [corner][channel] */
+    float albedo[3][3][LMB_SLOTS];     /* in: colours in LMB_COLOUR_RGBA16, decoded. Out: reflectance,
+                                          [corner][channel] */
 } lmb_resolve_batch;
 
 /* Planes of lmb_node_bounds::node; a vector takes three. */

@@ -3,6 +3,7 @@
 
 #include "../base/poly.h"
 #include "../base/vec.h"
+#include "../base/vertex.h"
 #include "../raster/texture.h"
 #include "../raster/triangle.h"
 #include <lambent/mixed.h>
@@ -57,9 +58,12 @@ static void albedo_at_texel(float out[3], const lmb_triangle *t, const lmb_scene
         float colour = 1.0f;
         if (m->colours != NULL) {
             const uint8_t *at = m->colours + c;
-            colour = mix_at_corners((float)at[4 * (size_t)t->vertex[0]], (float)at[4 * (size_t)t->vertex[1]],
-                                    (float)at[4 * (size_t)t->vertex[2]], b1, b2) *
-                     (1.0f / 255.0f);
+            colour = mesh_colours_are_wide(m)
+                         ? mix_at_corners(mesh_wide_colour(m, t->vertex[0], c), mesh_wide_colour(m, t->vertex[1], c),
+                                          mesh_wide_colour(m, t->vertex[2], c), b1, b2)
+                         : mix_at_corners((float)at[4 * (size_t)t->vertex[0]], (float)at[4 * (size_t)t->vertex[1]],
+                                          (float)at[4 * (size_t)t->vertex[2]], b1, b2) *
+                               (1.0f / 255.0f);
         }
         out[c] = clampf(t->material->albedo[c] * colour * texel[c], 0.0f, 1.0f);
     }

@@ -128,6 +128,14 @@ NOINLINE int tile_part(const masked_surface *s, const lmb_fill_context *c)
 }
 #endif
 
+#if LMB_MULTISAMPLE
+/* 1 if a surface that blends is shown at pixel (x, y) of the tile. */
+static int blends_at(const masked_surface *s, const lmb_fill_context *c, int32_t x, int32_t y)
+{
+    return lmb_resolve_blend_alpha(&s->alpha, c->scene, &s->plane, &s->rays, x, y) >= threshold(s, c->view, x, y);
+}
+#endif
+
 /* 1 if the surface is opaque at pixel (x, y) of the tile. */
 static int stands_at(masked_surface *s, const lmb_fill_context *c, int32_t x, int32_t y)
 {
@@ -138,9 +146,11 @@ static int stands_at(masked_surface *s, const lmb_fill_context *c, int32_t x, in
         return s->part == LMB_COVERS_ALL;
     }
 #endif
-    if (LMB_MULTISAMPLE && s->blends) {
-        s->alpha.cutoff = threshold(s, c->view, x, y);
+#if LMB_MULTISAMPLE
+    if (s->blends) {
+        return blends_at(s, c, x, y);
     }
+#endif
 #if LMB_TREES
     if (s->texture != NULL) {
         plane_point(&b1, &b2, &s->plane, &s->rays, (float)x, (float)y);

@@ -35,7 +35,12 @@ float lmb_triangle_alpha(const lmb_view *view, const lmb_scene *scene, uint32_t 
     }
     lmb_resolve_rays(&rays, view, x / LMB_TILE * LMB_TILE, y / LMB_TILE * LMB_TILE);
     lmb_resolve_plane(&plane, t.corner, &rays);
-    lmb_resolve_point(&b1, &b2, &plane, &rays, (float)(x % LMB_TILE), (float)(y % LMB_TILE));
     lmb_resolve_alpha_of(&alpha, &t);
+#if LMB_MULTISAMPLE
+    if ((t.material->flags & (LMB_ALPHA_MASK | LMB_ALPHA_BLEND)) != LMB_ALPHA_MASK) {
+        return lmb_resolve_blend_alpha(&alpha, scene, &plane, &rays, x % LMB_TILE, y % LMB_TILE);
+    }
+#endif
+    lmb_resolve_point(&b1, &b2, &plane, &rays, (float)(x % LMB_TILE), (float)(y % LMB_TILE));
     return lmb_resolve_alpha_at(&alpha, scene, b1, b2);
 }

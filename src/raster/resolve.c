@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "../base/poly.h"
 #include "../base/vertex.h"
 #include "paint.h"
 #include "plane.h"
@@ -48,6 +49,37 @@ float lmb_resolve_alpha_at(const lmb_resolve_alpha *alpha, const lmb_scene *scen
     }
     return a;
 }
+
+#if LMB_MULTISAMPLE
+/* The step to a neighbouring pixel along one texture coordinate, in texels. */
+static float texel_step(const float corner[3], float b1, float b2, int32_t side)
+{
+    return ((corner[1] - corner[0]) * b1 + (corner[2] - corner[0]) * b2) * (float)side;
+}
+
+float lmb_resolve_blend_alpha(const lmb_resolve_alpha *alpha, const lmb_scene *scene, const lmb_plane *plane,
+                              const lmb_rays *rays, int32_t x, int32_t y)
+{
+    const lmb_texture *t = alpha->texture >= 0 ? &scene->textures[alpha->texture] : NULL;
+    const int has_levels = t != NULL && t->filter == LMB_TRILINEAR && t->levels > 1;
+    float b1, b2, next1, next2, longest = 0.0f, texel[4];
+    lmb_resolve_point(&b1, &b2, plane, rays, (float)x, (float)y);
+    for (int step = 0; step < 2 && has_levels; ++step) {
+        lmb_resolve_point(&next1, &next2, plane, rays, (float)(x + 1 - step), (float)(y + step));
+        const float u = texel_step(alpha->u, next1 - b1, next2 - b2, t->width),
+                    v = texel_step(alpha->v, next1 - b1, next2 - b2, t->height);
+        longest = maxf(longest, u * u + v * v);
+    }
+    if (!(longest > 1.0f && longest < 1e30f)) {
+        return lmb_resolve_alpha_at(alpha, scene, b1, b2);
+    }
+    b1 = clampf(b1, 0.0f, 1.0f);
+    b2 = clampf(b2, 0.0f, 1.0f - b1);
+    lmb_texture_sample(texel, t, resolve_mix3(alpha->u, b1, b2), resolve_mix3(alpha->v, b1, b2),
+                       0.5f * lmb_log2(longest));
+    return texel[3] * resolve_mix3(alpha->corner, b1, b2);
+}
+#endif
 
 int lmb_resolve_opaque(const lmb_resolve_alpha *alpha, const lmb_scene *scene, float b1, float b2)
 {
@@ -198,8 +230,29 @@ static uint32_t colour_at(const lmb_mesh *m, uint32_t vertex)
     return (uint32_t)code[0] | (uint32_t)code[1] << 8 | (uint32_t)code[2] << 16 | (uint32_t)code[3] << 24;
 }
 
+#if LMB_TEXTURE_FORMATS
+/* Unused slots must hold valid numbers. */
+static void fetch_wide_colours(lmb_resolve_batch *b, corner_vertices vertex)
+{
+    if (b->count < LMB_SLOTS) {
+        memset(b->albedo, 0, sizeof b->albedo);
+    }
+    for (int k = 0; k < b->count; ++k) {
+        for (int i = 0; i < 9; ++i) {
+            b->albedo[i / 3][i % 3][k] = mesh_wide_colour(b->mesh, vertex[k][i / 3], i % 3);
+        }
+    }
+}
+#endif
+
 static void fetch_colours(lmb_resolve_batch *b, corner_vertices vertex)
 {
+#if LMB_TEXTURE_FORMATS
+    if (mesh_colours_are_wide(b->mesh)) {
+        fetch_wide_colours(b, vertex);
+        return;
+    }
+#endif
     for (int k = 0; k < b->count; ++k) {
         for (int i = 0; i < 3; ++i) {
             b->colour[i][k] = colour_at(b->mesh, vertex[k][i]);
@@ -270,7 +323,7 @@ static uint32_t fetch_batch(lmb_resolve_batch *b, int is_wide)
     const int is_float = HAVE_WIDE && m->position_format == LMB_POSITION_F32;
     fetch_soon(m->positions, m->position_format == LMB_POSITION_F32 ? 12 : 8, vertex, b->count);
     if (m->colours != NULL) {
-        fetch_soon(m->colours, 4, vertex, b->count);
+        fetch_soon(m->colours, mesh_colours_are_wide(m) ? 8 : 4, vertex, b->count);
     }
     if (m->uvs != NULL) {
         fetch_soon(m->uvs, m->uv_format == LMB_UV_F32 ? 8 : 4, vertex, b->count);

@@ -2,6 +2,7 @@
 #ifndef LMB_RASTER_RESOLVE_H
 #define LMB_RASTER_RESOLVE_H
 
+#include "plane.h"
 #include "triangle.h"
 
 /* A triangle's opacity and texture coordinates at the corners. */
@@ -21,6 +22,12 @@ void lmb_resolve_alpha_of(lmb_resolve_alpha *out, const lmb_triangle *triangle);
 
 /* Alpha at barycentrics (b1, b2), which are clamped to the triangle. */
 float lmb_resolve_alpha_at(const lmb_resolve_alpha *alpha, const lmb_scene *scene, float b1, float b2);
+
+#if LMB_MULTISAMPLE
+/* Alpha at pixel (x, y) of the tile with these rays, of the texture's level that colours use. */
+float lmb_resolve_blend_alpha(const lmb_resolve_alpha *alpha, const lmb_scene *scene, const lmb_plane *plane,
+                              const lmb_rays *rays, int32_t x, int32_t y);
+#endif
 
 /* 1 if the surface is opaque at barycentrics (b1, b2), which are clamped to the triangle; 0 in a hole. */
 int lmb_resolve_opaque(const lmb_resolve_alpha *alpha, const lmb_scene *scene, float b1, float b2);

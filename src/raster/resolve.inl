@@ -287,7 +287,9 @@ LANE_INLINE void resolve_albedo(lmb_resolve_batch *b, int k)
         lane v[3];
         for (int i = 0; i < 3; ++i) {
             const lanei code = lanei_load((const int32_t *)b->colour[i] + k);
-            const lane colour = resolve_share(lanei_and(lanei_shift(code, 8 * c), lanei_splat(255)));
+            const lane colour = LMB_TEXTURE_FORMATS && b->mesh->colour_format == LMB_COLOUR_RGBA16
+                                    ? lane_load(b->albedo[i][c] + k)
+                                    : resolve_share(lanei_and(lanei_shift(code, 8 * c), lanei_splat(255)));
             v[i] = lane_mul(lane_splat(b->material->albedo[c]), colour);
             lane_store(b->albedo[i][c] + k, i == 0 ? v[0] : lane_sub(v[i], v[0]));
         }

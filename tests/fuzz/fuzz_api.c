@@ -69,7 +69,7 @@ static int32_t choice(bytes *b, uint32_t max) { return (int32_t)below(b, below(b
 
 typedef struct world {
     float positions[MESHES][TRIANGLES * 9], uvs[MESHES][TRIANGLES * 6];
-    uint32_t colours[MESHES][TRIANGLES * 3], normals[MESHES][TRIANGLES * 3], indices[MESHES][TRIANGLES * 3];
+    uint32_t colours[MESHES][TRIANGLES * 6], normals[MESHES][TRIANGLES * 3], indices[MESHES][TRIANGLES * 3];
     uint32_t texels[TEXELS];
     lmb_mesh mesh[MESHES];
     lmb_material material[MESHES];
@@ -105,6 +105,8 @@ static void make_mesh(world *w, uint32_t k, bytes *b)
     m->tangents = how & 8u ? (const int16_t *)w->normals[k] : NULL;
     m->triangle_count = below(b, TRIANGLES + 1);
     m->vertex_count = 3 * TRIANGLES;
+    memcpy(w->colours[k] + TRIANGLES * 3, w->colours[k], TRIANGLES * 3 * sizeof w->colours[k][0]);
+    m->colour_format = (uint8_t)(how >> 2 & 1u);
     m->position_format = (uint8_t)(how >> 4 & 1u);
     m->uv_format = (uint8_t)(how >> 5 & 1u);
     m->tangent_format = (uint8_t)(how >> 5 & 1u);

@@ -607,6 +607,7 @@ static void scenes_refused(void)
     BAD(s.meshes[0].normals = (const int16_t *)(const void *)odd, LMB_ERR_ALIGN);
     BAD(s.meshes[0].uvs = odd, LMB_ERR_ALIGN);
     BAD(s.meshes[0].colours = odd, LMB_ERR_ALIGN);
+    BAD(s.meshes[0].colour_format = LMB_COLOUR_RGBA16 + (LMB_TEXTURE_FORMATS ? 1 : 0), LMB_ERR_FORMAT);
     BAD(s.meshes[0].indices = odd, LMB_ERR_ALIGN);
     BAD(s.texture.texels = odd, LMB_ERR_ALIGN);
     BAD(s.meshes[0].position_format = 2, LMB_ERR_FORMAT);
@@ -702,6 +703,17 @@ static void vertex_streams(void)
     mesh_colour(&m, 1, colour);
     CHECK(uv[0] == 0.3f && uv[1] == 2.0f && colour[0] == 1.0f && colour[1] == 0.2f && colour[3] == 0.4f);
     CHECK(mesh_index(&m, 0) == 7 && mesh_index(&m, 1) == 65535 && mesh_normal(&m, 0).z > 0.99f);
+#if LMB_TEXTURE_FORMATS
+    static const union {
+        uint16_t code[8];
+        uint32_t word[4];
+    } wide = {{0, 0, 0, 0, 65535, 1142, 6554, 13107}};
+    m.colours = (const uint8_t *)wide.code;
+    m.colour_format = LMB_COLOUR_RGBA16;
+    mesh_colour(&m, 1, colour);
+    CHECK(colour[0] == 1.0f && fabsf(colour[1] - 0.00030366f) < 1e-8f && fabsf(colour[2] - 0.0100015f) < 1e-7f);
+    CHECK(colour[3] == 0.2f);
+#endif
     m.index_format = LMB_INDEX_U32;
     indices.w[1] = 123456789u;
     CHECK(mesh_index(&m, 1) == 123456789u);

@@ -105,6 +105,40 @@ static void check_strips(void)
     CHECK_MSG(wrong <= SIDE, "%d", wrong); /* except pixels in which two triangles meet */
 }
 
+/* A wall far away: the texture's period is a pixel, so each pixel shows the mean of alpha, a quarter. */
+static void check_far(int32_t width, int32_t height)
+{
+    static uint8_t texels[4 * 2 * 96 * 96];
+    uint32_t n[8];
+    walls(2, 1.0f, 1.0f);
+    world.texture.texels = texels;
+    world.texture.width = (uint16_t)width;
+    world.texture.height = (uint16_t)height;
+    world.texture.levels = (uint8_t)lmb_texture_level_count(width, height);
+    world.texture.filter = LMB_TRILINEAR;
+    for (int32_t i = 0; i < width * height; ++i) {
+        texels[4 * i + 3] = i % width < width / 4 ? 255 : 0;
+    }
+    lmb_texture_mips(texels, width, height, world.texture.levels);
+    world.scene.texture_count = 1;
+    world.material[0].texture = 0;
+    const float repeats = 18.0f / (2.0f * 4.0f * tanf(0.3f)) * SIDE; /* over the wall, 18 m wide and 4 m away */
+    for (int i = 0; i < 2; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            world.uvs[i][k][0] *= repeats;
+            world.uvs[i][k][1] *= repeats;
+        }
+    }
+    lmb_view v;
+    CHECK(lmb_view_look_at(&v, vec3(0, 0, 5), vec3(0, 0, 0), Y, 0.6f, SIDE, SIDE) == LMB_OK);
+    CHECK(fabsf(lmb_triangle_alpha(&v, &world.scene, 1, 40, 50) - (float)(width / 4) / (float)width) < 0.02f);
+    for (int32_t samples = 1; samples <= 4; samples *= 4) {
+        count_ids(n, samples, LMB_BLEND);
+        const double share = (n[1] + n[2]) / ((double)samples * SIDE * SIDE), want = (double)(width / 4) / width;
+        CHECK_MSG(fabs(share - want) < 0.02, "%dx%d, %d samples: %g of %g", (int)width, (int)height, (int)samples, share, want);
+    }
+}
+
 void test_blend(void)
 {
     static const float alphas[] = {0.0f, 0.1f, 0.3f, 0.5f, 0.77f, 1.0f};
@@ -119,6 +153,10 @@ void test_blend(void)
         check_layers(0.6f, samples);
     }
     check_strips();
+    check_far(64, 64);
+    check_far(96, 96);
+    check_far(33, 7);
+    check_far(81, 5);
     walls(2, 0.6f, 1.0f); /* lights use the cutoff */
     count_ids(n, 1, 0);
     CHECK(n[1] + n[2] == SIDE * SIDE);

@@ -361,8 +361,15 @@ static void gltf_interleaved(void)
         CHECK(((const float *)m->uvs)[2 * i] == (float)(i == 1));
         CHECK(near(((const float *)m->uvs)[2 * i + 1], 0.2 * i, 1e-7));
         for (k = 0; k < 4; ++k)
-            CHECK(m->colours[4 * i + k] == 16 * i + 64 * k);
+            CHECK(m->colour_format == LMB_COLOUR_RGBA8 && m->colours[4 * i + k] == 16 * i + 64 * k);
     }
+}
+
+/* 1 if channel c of a vertex is `light`, within a thousandth of it. */
+static int has_light(uint32_t mesh, uint32_t vertex, int c, double light)
+{
+    lmb_vertex v;
+    return lmb_mesh_vertex(&v, &loaded.scene.meshes[mesh], vertex) && near(v.colour[c], light, 1e-3 * light);
 }
 
 /* Quantised positions and float colours. */
@@ -400,8 +407,7 @@ static void gltf_integers(void)
     }
     CHECK(is_position(0, 1, 1, 0, 0) && is_position(0, 2, 0, -1, -1));
     CHECK(is_position(1, 1, 200, 0, 0) && is_position(1, 2, 0, 100, 0));
-    CHECK(loaded.scene.meshes[0].colours[2] == 0 && loaded.scene.meshes[0].colours[3] == 255);
-    CHECK(loaded.scene.meshes[0].colours[4] == 64 && loaded.scene.meshes[0].colours[10] == 255);
+    CHECK(has_light(0, 0, 2, 0) && has_light(0, 0, 3, 1) && has_light(0, 1, 0, 0.25) && has_light(0, 2, 2, 1));
     CHECK(noted("without a material, drawn white: 2") && loaded.scene.materials[0].albedo[1] == 1);
 }
 
@@ -896,7 +902,7 @@ static void obj_corners(void)
     CHECK(loaded.scene.instances[0].material == loaded.scene.instances[1].material);
     CHECK(((const float *)m->uvs)[1] == 1 && ((const float *)m->uvs)[8] == 0.25f && ((const float *)m->uvs)[9] == 0);
     CHECK(is_vec(lmb_octahedral_decode(m->normals), 0, 0, 1));
-    CHECK(m->colours && m->colours[0] == 255 && m->colours[1] == 0 && m->colours[5] == 55 && m->colours[8] == 255);
+    CHECK(m->colours && has_light(1, 0, 0, 1) && has_light(1, 0, 1, 0) && has_light(1, 1, 1, 0.214041) && has_light(1, 2, 0, 1));
     CHECK(loaded.scene.texture_count == 1 && loaded.scene.textures[0].wrap_s == LMB_WRAP_CLAMP);
     CHECK(loaded.scene.textures[0].filter == LMB_TRILINEAR && loaded.scene.textures[0].levels == 2);
 }
@@ -915,8 +921,12 @@ static int load_painted(const char *v, const char *more, int32_t colours)
 
 static int is_colour(uint32_t v, int r, int g, int b)
 {
-    const uint8_t *c = loaded.scene.mesh_count ? loaded.scene.meshes[0].colours : NULL;
-    return c && c[4 * v] == r && c[4 * v + 1] == g && c[4 * v + 2] == b && c[4 * v + 3] == 255;
+    const int code[3] = {r, g, b};
+    lmb_vertex at;
+    int ok = loaded.scene.mesh_count && loaded.scene.meshes[0].colours && lmb_mesh_vertex(&at, &loaded.scene.meshes[0], v);
+    for (int k = 0; ok && k < 3; ++k)
+        ok = (int)(at.colour[k] * 255.0f + 0.5f) == code[k];
+    return ok && at.colour[3] == 1.0f;
 }
 
 /* Vertex colours are sRGB codes, also after a weight or before an alpha. White stays white. */
@@ -938,6 +948,10 @@ static void obj_colours(void)
     CHECK(is_colour(0, 255, 128, 0) && is_colour(1, 0, 0, 255) && noted("alpha under 1, drawn opaque: 1"));
     CHECK_LOADS(load_painted("v 0 0 0 255 188 0\nv 1 0 0 0 0 1\nv 0 1 0 10 20 30\n", "", MODEL_COLOURS_SRGB));
     CHECK(is_colour(0, 255, 128, 0) && is_colour(1, 0, 0, 0) && noted("whole numbers, read as 0 to 255"));
+    CHECK_LOADS(load_painted("v 0 0 0 1 2 3\nv 1 0 0 .00095 .0004 1\nv 0 1 0 0 0 0\n", "", MODEL_COLOURS_LINEAR));
+    CHECK(has_light(0, 1, 0, 0.00095) && has_light(0, 1, 1, 0.0004) && has_light(0, 1, 2, 1)); /* dark ratios stay */
+    CHECK_LOADS(load_painted("v 0 0 0 10 20 3\nv 1 0 0 0 2 1\nv 0 1 0 0 0 0\n", "", MODEL_COLOURS_SRGB));
+    CHECK(has_light(0, 0, 2, 0.000910581) && has_light(0, 1, 1, 0.000607054) && has_light(0, 1, 2, 0.000303527));
 }
 
 /* --- smoothing groups --- */
@@ -1022,7 +1036,9 @@ static void obj_smoothing_odd(void)
     CHECK(has_normal(0, -1, 1, -slope, 0, slope));
     CHECK_LOADS(load_text("s.obj", ROOF "v 0.00001 0 1\ns 1\nf 2 7 3\n")); /* only a sliver */
     CHECK(has_normal(0, -1, 1, 0, 0, 1));
-    CHECK(is_flat(ROOF "s on\nf 1 2 3 4\n") && noted("smoothing groups that are no number, taken as off: 1"));
+    CHECK(is_flat(ROOF "s yes\nf 1 2 3 4\n") && noted("smoothing groups that are no number, taken as off: 1"));
+    CHECK_LOADS(load_text("s.obj", ROOF "s on\nf 1 2 3 4\ns 1\nf 2 5 6 3\n")); /* group 1 */
+    CHECK(has_normal(0, -1, 1, 0, 0, 1) && noted("makes smooth: 2") && !noted("taken as off"));
     CHECK(is_flat(ROOF "s\ns -1\ns 2147483647\nf 1 2 3 4\n") && noted("taken as off: 3"));
     CHECK_LOADS(load_text("s.obj", ROOF "s 2147483646\nf 1 2 3 4\nf 2 5 6 3\n"));
     CHECK(has_normal(0, -1, 1, 0, 0, 1));

@@ -121,8 +121,20 @@ static int are_indices(const uint16_t *expected, uint32_t triangles)
 
 static int is_colour(uint32_t v, int r, int g, int b, int a)
 {
-    const uint8_t *c = mesh()->colours ? mesh()->colours + 4 * (size_t)v : NULL;
-    return c && c[0] == r && c[1] == g && c[2] == b && c[3] == a;
+    const int code[4] = {r, g, b, a};
+    lmb_vertex at;
+    int ok = mesh()->colours && lmb_mesh_vertex(&at, mesh(), v);
+    for (int k = 0; ok && k < 4; ++k)
+        ok = (int)(at.colour[k] * 255.0f + 0.5f) == code[k];
+    return ok;
+}
+
+/* Channel c at a corner, as the nearest byte. */
+static int colour_of(uint32_t mesh_number, uint32_t corner, int c)
+{
+    const lmb_mesh *m = &loaded.scene.meshes[mesh_number];
+    lmb_vertex v;
+    return lmb_mesh_vertex(&v, m, ((const uint16_t *)m->indices)[corner]) ? (int)(v.colour[c] * 255.0f + 0.5f) : -1;
 }
 
 static int is_normal(uint32_t v, double x, double y, double z)
@@ -307,6 +319,28 @@ static int load_grey(const char *type, const char *code, const model_choice *cho
     return model_read_as(&loaded, "a", choice, (const uint8_t *)text, (size_t)n, &notes, &problem);
 }
 
+/* Dark colours keep their ratios: light of sRGB codes, and floats between them. */
+static void dark_colours(void)
+{
+    static const struct {
+        const char *type, *code;
+        double light;
+    } all[] = {{"uchar", "1", 0.000303527}, {"uchar", "2", 0.000607054}, {"uchar", "7", 0.00212469},
+               {"uchar", "20", 0.00699541}, {"float", "0.00095", 0.0000735294}, {"double", "0.0123", 0.000952012}};
+    const model_choice linear = {NULL, MODEL_COLOURS_LINEAR, 0};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i) {
+        lmb_vertex v = {.colour = {0, 0, 0, 0}};
+        CHECK_LOADS(load_grey(all[i].type, all[i].code, NULL));
+        lmb_mesh_vertex(&v, mesh(), 0);
+        CHECK_MSG(fabs((double)v.colour[1] / all[i].light - 1) < 3e-3, "%s %s: %g", all[i].type, all[i].code,
+                  (double)v.colour[1]);
+    }
+    CHECK_LOADS(load_grey("float", "0.00095", &linear));
+    lmb_vertex v = {.colour = {0, 0, 0, 0}};
+    lmb_mesh_vertex(&v, mesh(), 2);
+    CHECK(fabs((double)v.colour[2] - 0.00095) < 1e-6);
+}
+
 /* Codes are sRGB by default: 188 is half the light of 255, which is white and not a grey of 0.8. Floats are decoded
  * without rounding: 0.98235 lies between the codes 250 and 251, and so does the light. */
 static void scan_colours(void)
@@ -325,11 +359,14 @@ static void scan_colours(void)
     for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i) {
         CHECK_LOADS(load_grey(all[i].type, all[i].code, NULL));
         CHECK_MSG(loaded.blocks && is_colour(0, all[i].srgb, all[i].srgb, all[i].srgb, 255), "%s %s: %d", all[i].type,
-                  all[i].code, loaded.blocks ? mesh()->colours[0] : -1);
+                  all[i].code, loaded.blocks ? colour_of(0, 0, 0) : -1);
         CHECK(loaded.scene.materials[0].albedo[0] == 1.0f);
+        if (all[i].linear == 188 || all[i].linear == 255) { /* bytes where bytes are exact */
+            CHECK(mesh()->colour_format == (all[i].linear == 188 ? LMB_COLOUR_RGBA16 : LMB_COLOUR_RGBA8));
+        }
         CHECK_LOADS(load_grey(all[i].type, all[i].code, &linear));
         CHECK_MSG(loaded.blocks && is_colour(2, all[i].linear, all[i].linear, all[i].linear, 255), "%s %s: %d", all[i].type,
-                  all[i].code, loaded.blocks ? mesh()->colours[0] : -1);
+                  all[i].code, loaded.blocks ? colour_of(0, 0, 0) : -1);
     }
 }
 
@@ -392,12 +429,6 @@ static void strips(void)
 
 /* --- colours by face and by other names --- */
 
-static const uint8_t *colour_of(uint32_t mesh_number, uint32_t corner)
-{
-    const lmb_mesh *m = &loaded.scene.meshes[mesh_number];
-    return m->colours + 4 * (size_t)((const uint16_t *)m->indices)[corner];
-}
-
 #define TWO   "0 0 0\n1 0 0\n0 1 0\n1 1 0\n"
 #define HEAD4 HEAD "element vertex 4\n" XYZ
 #define RGB(prefix) "property uchar " prefix "red\nproperty uchar " prefix "green\nproperty uchar " prefix "blue\n"
@@ -412,8 +443,8 @@ static void face_colours(void)
         CHECK_LOADS(load_text(text));
         CHECK(mesh()->vertex_count == 6 && mesh()->triangle_count == 2 && mesh()->colours && notes.count == 0);
         for (uint32_t i = 0; mesh()->colours && i < 3; ++i) {
-            CHECK(colour_of(0, i)[0] == 255 && colour_of(0, i)[1] == 128 && colour_of(0, i)[2] == 0);
-            CHECK(colour_of(0, i + 3)[0] == 0 && colour_of(0, i + 3)[2] == 255);
+            CHECK(colour_of(0, i, 0) == 255 && colour_of(0, i, 1) == 128 && colour_of(0, i, 2) == 0);
+            CHECK(colour_of(0, i + 3, 0) == 0 && colour_of(0, i + 3, 2) == 255);
         }
         CHECK(loaded.scene.materials[0].albedo[0] == 1.0f && is_position(0, 0, 0, 0) && is_position(4, 1, 1, 0));
     }
@@ -775,6 +806,7 @@ void test_ply(void)
     extremes();
     text_forms();
     scan_colours();
+    dark_colours();
     strips();
     face_colours();
     wide_codes();

@@ -22,7 +22,8 @@ typedef struct world {
     lmb_view view;
     float positions[MESHES][CORNERS * 3], uvs[MESHES][CORNERS * 2];
     int16_t normals[MESHES][CORNERS * 2];
-    uint8_t colours[MESHES][CORNERS * 4], texels[TEXELS * TEXELS * 4 * 2];
+    uint8_t texels[TEXELS * TEXELS * 4 * 2];
+    uint16_t colours[MESHES][CORNERS * 4]; /* as bytes or whole */
     uint32_t indices[MESHES][CORNERS];
 } world;
 
@@ -42,7 +43,7 @@ static void make_mesh(test_rng *r, int m)
         w.uvs[m][2 * i + 1] = test_uniform(r, -3.0f, 3.0f);
         w.indices[m][i] = (uint32_t)i;
         for (int c = 0; c < 4; ++c) {
-            w.colours[m][4 * i + c] = (uint8_t)test_random(r);
+            w.colours[m][4 * i + c] = (uint16_t)test_random(r);
         }
         w.normals[m][2 * i] = (int16_t)test_random(r);
         w.normals[m][2 * i + 1] = (int16_t)test_random(r);
@@ -55,7 +56,8 @@ static void make_mesh(test_rng *r, int m)
     mesh->triangle_count = TRIANGLES;
     mesh->uvs = m % 2 == 0 ? w.uvs[m] : NULL;
     mesh->normals = m < 2 ? w.normals[m] : NULL;
-    mesh->colours = m == 1 || m == 2 ? w.colours[m] : NULL;
+    mesh->colours = m == 1 || m == 2 ? (const uint8_t *)w.colours[m] : NULL;
+    mesh->colour_format = m == 2 && LMB_TEXTURE_FORMATS ? LMB_COLOUR_RGBA16 : LMB_COLOUR_RGBA8;
 }
 
 static void make_world(test_rng *r)
@@ -197,6 +199,30 @@ static void test_bad_ids(const lmb_kernels *k)
     }
 }
 
+#if LMB_TEXTURE_FORMATS
+/* 16-bit colours are squares, so dark ones keep their ratios: these are the sRGB codes 1 and 2, and white. */
+static void test_wide_colours(const lmb_kernels *k)
+{
+    static const uint16_t code[4] = {1142, 1615, 65535, 65535};
+    int seen = 0, wrong = 0;
+    w.material[2].texture = -1;
+    for (int i = 0; i < CORNERS; ++i) {
+        memcpy(w.colours[2] + 4 * i, code, sizeof code);
+    }
+    resolve_whole(k);
+    for (int i = 0; i < PIXELS; ++i) {
+        const lmb_tile *t = &whole[i / LMB_TILE_PIXELS];
+        const int at = i % LMB_TILE_PIXELS;
+        if (t->id[at] - w.instance[2].first_id < TRIANGLES) {
+            ++seen;
+            wrong += fabsf(t->albedo[0][at] / 0.9f - 0.0003035f) > 4e-7f ||
+                     fabsf(t->albedo[1][at] / 0.9f - 0.000607f) > 6e-7f || fabsf(t->albedo[2][at] - 0.9f) > 1e-6f;
+        }
+    }
+    CHECK_MSG(seen > 50 && wrong == 0, "%s: %d of %d", lmb_kernels_name(k), wrong, seen);
+}
+#endif
+
 /* NaN and infinite coordinates: the tile is the same on every backend. */
 static void test_wild_coordinates(const lmb_kernels *k)
 {
@@ -250,6 +276,7 @@ static void test_codes(const lmb_kernels *k, test_rng *r)
     for (int m = 0; m < MESHES; ++m) {
         w.material[m].texture = -1;
         w.material[m].albedo[0] = 1.0f;
+        w.mesh[m].colour_format = LMB_COLOUR_RGBA8;
     }
     for (int code = 0; code < 256; ++code) {
         memset(w.colours, code, sizeof w.colours);
@@ -304,6 +331,9 @@ void test_resolve(void)
         test_rng r = {71};
         make_world(&r);
         test_windows(k, &r);
+#if LMB_TEXTURE_FORMATS
+        test_wide_colours(k);
+#endif
         test_bad_ids(k);
         make_world(&r);
         test_wild_coordinates(k);

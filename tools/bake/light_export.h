@@ -13,6 +13,7 @@ typedef struct light_corner {
     lmb_vec3 at, normal;
     lmb_vec3 own_at, own_normal;
     float uv[MODEL_UV_SETS][2], tangent[4], colour[4];
+    int has_wide_colour; /* of a mesh in LMB_COLOUR_RGBA16 */
 } light_corner;
 
 /* light_corners: returns the corners of the front or back of triangle `id`, counter-clockwise seen from that side in

@@ -86,9 +86,9 @@ int light_corners(light_corner out[3], lmb_vec3 *face, const lmb_scene *scene, c
         }
         read_streams(c, &t, source, t.vertex[from], back);
         for (int i = 0; i < 4; ++i) {
-            c->colour[i] =
-                t.mesh->colours != NULL ? (float)t.mesh->colours[4 * (size_t)t.vertex[from] + (size_t)i] : 255.0f;
+            c->colour[i] = own[from].colour[i];
         }
+        c->has_wide_colour = t.mesh->colour_format == LMB_COLOUR_RGBA16;
     }
     return 1;
 }
@@ -118,6 +118,7 @@ light_corner light_along(const light_corner *a, const light_corner *b, float par
     c.tangent[3] = a->tangent[3];
     mix(c.uv[0], a->uv[0], b->uv[0], part, 2 * MODEL_UV_SETS);
     mix(c.colour, a->colour, b->colour, part, 4);
+    c.has_wide_colour = a->has_wide_colour;
     return c;
 }
 
@@ -138,7 +139,8 @@ void light_vertex_of(glb_vertex *v, const light_corner *c)
     memcpy(v->uv, c->uv, sizeof v->uv);
     memcpy(v->tangent, c->tangent, sizeof v->tangent);
     for (int i = 0; i < 4; ++i) {
-        v->colour[i] = (uint8_t)(c->colour[i] + 0.5f);
+        v->colour[i] = c->has_wide_colour ? (uint16_t)(c->colour[i] * 65535.0f + 0.5f)
+                                          : (uint16_t)(257 * (int)(c->colour[i] * 255.0f + 0.5f));
         v->light[i] = 65535;
     }
 }

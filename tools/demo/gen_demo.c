@@ -612,7 +612,7 @@ static void print_mesh(const shape *s)
     print_float(m->uv_scale[0]);
     printf(", ");
     print_float(m->uv_scale[1]);
-    printf("}, %s, %s, LMB_INDEX_U16, 0},\n",
+    printf("}, %s, %s, LMB_INDEX_U16, 0, 0},\n",
            m->position_format == LMB_POSITION_I16 ? "LMB_POSITION_I16" : "LMB_POSITION_F32",
            m->uv_format == LMB_UV_U16 ? "LMB_UV_U16" : "LMB_UV_F32");
 }

@@ -62,26 +62,40 @@ static uint32_t put_floats(glb_writer *w, const glb_mesh *m, size_t at, size_t c
     return end_accessor(w, from, ARRAY_BUFFER, m->vertex_count, 5126, type, "");
 }
 
-static uint32_t put_colours(glb_writer *w, const glb_mesh *m)
+/* Writes 4 numbers a vertex as 16-bit codes. */
+static uint32_t put_shorts(glb_writer *w, const glb_mesh *m, size_t at)
 {
     const size_t from = w->bytes.size;
     for (uint32_t i = 0; i < m->vertex_count; ++i) {
-        byte_put(&w->bytes, m->vertex[i].colour, 4);
-    }
-    return end_accessor(w, from, ARRAY_BUFFER, m->vertex_count, 5121, "VEC4", ",\"normalized\":true");
-}
-
-static uint32_t put_light(glb_writer *w, const glb_mesh *m)
-{
-    const size_t from = w->bytes.size;
-    for (uint32_t i = 0; i < m->vertex_count; ++i) {
+        uint16_t v[4];
+        memcpy(v, (const char *)&m->vertex[i] + at, sizeof v);
         for (int c = 0; c < 4; ++c) {
-            const uint8_t bytes[2] = {(uint8_t)m->vertex[i].light[c], (uint8_t)(m->vertex[i].light[c] >> 8)};
+            const uint8_t bytes[2] = {(uint8_t)v[c], (uint8_t)(v[c] >> 8)};
             byte_put(&w->bytes, bytes, 2);
         }
     }
     return end_accessor(w, from, ARRAY_BUFFER, m->vertex_count, 5123, "VEC4", ",\"normalized\":true");
 }
+
+/* Bytes if all colours are bytes. */
+static uint32_t put_colours(glb_writer *w, const glb_mesh *m)
+{
+    const size_t from = w->bytes.size;
+    for (uint32_t i = 0; i < m->vertex_count; ++i) {
+        const uint16_t *v = m->vertex[i].colour;
+        if (v[0] % 257 || v[1] % 257 || v[2] % 257 || v[3] % 257) {
+            return put_shorts(w, m, offsetof(glb_vertex, colour));
+        }
+    }
+    for (uint32_t i = 0; i < m->vertex_count; ++i) {
+        const uint16_t *v = m->vertex[i].colour;
+        const uint8_t bytes[4] = {(uint8_t)v[0], (uint8_t)v[1], (uint8_t)v[2], (uint8_t)v[3]}; /* v is 257 x byte */
+        byte_put(&w->bytes, bytes, 4);
+    }
+    return end_accessor(w, from, ARRAY_BUFFER, m->vertex_count, 5121, "VEC4", ",\"normalized\":true");
+}
+
+static uint32_t put_light(glb_writer *w, const glb_mesh *m) { return put_shorts(w, m, offsetof(glb_vertex, light)); }
 
 static uint32_t put_indices(glb_writer *w, const glb_mesh *m)
 {
@@ -104,7 +118,7 @@ static uint32_t put_tangents(glb_writer *w, const glb_mesh *m)
 static int is_coloured(const glb_mesh *m)
 {
     uint32_t i = 0;
-    while (i < m->vertex_count && memcmp(m->vertex[i].colour, "\377\377\377\377", 4) == 0) {
+    while (i < m->vertex_count && memcmp(m->vertex[i].colour, "\377\377\377\377\377\377\377\377", 8) == 0) {
         ++i;
     }
     return i < m->vertex_count;

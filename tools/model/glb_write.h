@@ -13,7 +13,7 @@ typedef struct glb_vertex {
     float tangent[4];               /* TANGENT */
     float light_uv[2];              /* the TEXCOORD_ of the lightmap */
     uint16_t light[4];              /* COLOR_1: times the scale; alpha is 65535 */
-    uint8_t colour[4];              /* COLOR_0 */
+    uint16_t colour[4];             /* COLOR_0, in 65535ths */
 } glb_vertex;
 
 /* Triangles of one instance of the scene. Only their fronts are visible. */

@@ -283,6 +283,7 @@ static int make_tables(const gltf_tree *t, gltf *g)
     g->normals = (int16_t **)build_scratch(g->b, accessors, sizeof *g->normals);
     g->tangents = (const int16_t **)build_scratch(g->b, accessors, sizeof *g->tangents);
     g->colours = (const uint8_t **)build_scratch(g->b, accessors, sizeof *g->colours);
+    g->colour_formats = (uint8_t *)build_scratch(g->b, accessors, sizeof *g->colour_formats);
     g->uv_owner = (uint32_t *)build_scratch(g->b, accessors, sizeof *g->uv_owner);
     g->buffer_bytes = (gltf_bytes *)build_scratch(g->b, g->buffers.count, sizeof *g->buffer_bytes);
     for (i = 0; g->mesh_first && i < g->meshes.count; ++i)

@@ -57,6 +57,7 @@ typedef struct gltf {
     int16_t **normals;
     const int16_t **tangents;
     const uint8_t **colours;
+    uint8_t *colour_formats;
     uint32_t *uv_owner;               /* material that uvs[accessor] was made for */
     gltf_uv *material_uv;             /* by material */
     int32_t *slots[2];                /* by texture, as colour or normal map: index in b->textures, or SLOT_ */

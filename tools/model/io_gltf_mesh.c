@@ -145,30 +145,31 @@ static int read_uvs(lmb_mesh *out, gltf *g, uint32_t attributes, uint32_t materi
     return 1;
 }
 
-/* 0 .. 1 to 0 .. 255, nearest; NaN to 0. Normalized bytes are unchanged. */
-static uint8_t unorm8(float v) { return v > 0.0f ? v < 1.0f ? (uint8_t)(v * 255.0f + 0.5f) : 255 : 0; }
-
 static int read_colours(lmb_mesh *out, gltf *g, uint32_t reference)
 {
     gltf_accessor a;
     uint32_t index, i, c;
     float *values;
-    uint8_t *bytes;
+    uint16_t *codes;
     if (!gltf_attribute(&a, &index, g, reference, 3, 4, out->vertex_count))
         return 0;
     if (index == JSON_NONE)
         return 1;
     if (!g->colours[index]) {
         values = gltf_floats(g, &a);
-        bytes = (uint8_t *)build_keep(g->b, a.count, 4);
-        if (!values || !bytes)
+        codes = (uint16_t *)build_keep(g->b, a.count, 4 * sizeof *codes);
+        if (!values || !codes)
             return 0;
         for (i = 0; i < a.count; ++i)
-            for (c = 0; c < 4; ++c)
-                bytes[4 * (size_t)i + c] = c < a.components ? unorm8(values[(size_t)i * a.components + c]) : 255;
-        g->colours[index] = bytes;
+            for (c = 0; c < 4; ++c) {
+                const double v = c < a.components ? (double)values[(size_t)i * a.components + c] : 1;
+                codes[4 * (size_t)i + c] = c < 3 ? build_linear(v) : build_share(v);
+            }
+        g->colour_formats[index] = build_narrow(codes, a.count);
+        g->colours[index] = (const uint8_t *)codes;
     }
     out->colours = g->colours[index];
+    out->colour_format = g->colour_formats[index];
     return 1;
 }
 

@@ -43,7 +43,7 @@ typedef struct obj {
     model_build *b;
     census n;
     float *v, *vt, *vn;
-    uint8_t *colours;                     /* RGBA8 by v, A 0: no colour; or NULL */
+    uint16_t *colours;                    /* RGBA16 by v, A 0: no colour; or NULL */
     uint32_t v_count, vt_count, vn_count; /* so far: base of negative numbers */
     corner *corners;                      /* unique */
     uint32_t corner_count;
@@ -177,7 +177,7 @@ static int allocate(obj *o)
     o->face_cut = (uint32_t *)build_scratch(o->b, n->widest, 3 * sizeof *o->face_cut);
     o->face_links = (uint32_t *)build_scratch(o->b, n->widest, 2 * sizeof *o->face_links);
     o->face_points = (double *)build_scratch(o->b, n->widest, 3 * sizeof *o->face_points);
-    if (n->colours && !(o->colours = (uint8_t *)build_scratch(o->b, n->v, 4)))
+    if (n->colours && !(o->colours = (uint16_t *)build_scratch(o->b, n->v, 4 * sizeof *o->colours)))
         return 0;
     return o->v && o->vt && o->vn && o->corners && o->slots && o->triangles && o->face && o->face_number &&
            o->face_cut && o->face_links && o->face_points && allocate_names(o);
@@ -208,12 +208,12 @@ static int first_colour(const census *n, int numbers)
 /* Colours are 0 .. 1, or integers up to 255. */
 static void put_colour(obj *o, const double *code, int has_alpha)
 {
-    uint8_t *to = o->colours + 4 * (size_t)o->v_count;
+    uint16_t *to = o->colours + 4 * (size_t)o->v_count;
     const double top = o->n.whole_codes && !o->n.fractions ? 255 : 1;
     int i;
     for (i = 0; i < 3; ++i)
         to[i] = build_colour(o->b, code[i] / top);
-    to[3] = 255;
+    to[3] = 65535;
     o->translucent += has_alpha && code[3] < top && code[3] != 1;
 }
 
@@ -378,13 +378,15 @@ static int read_face(obj *o, cursor *c)
     return 1;
 }
 
-/* `s off` and `s 0` mean flat. An invalid group counts as no group and is noted. */
+/* `s off` and `s 0` mean flat, `s on` means group 1. An invalid group counts as no group and is noted. */
 static void use_smoothing(obj *o, cursor *c)
 {
     slice word = {"", 0};
     int64_t group = 0;
-    const int is_off = text_token(&word, c) && slice_is_like(word, "off");
-    if (!is_off && (!slice_integer(&group, word) || group < 0 || group >= (int64_t)(NONE - SMOOTH))) {
+    const int has_word = text_token(&word, c), is_off = has_word && slice_is_like(word, "off");
+    if (has_word && slice_is_like(word, "on"))
+        group = 1;
+    else if (!is_off && (!slice_integer(&group, word) || group < 0 || group >= (int64_t)(NONE - SMOOTH))) {
         ++o->odd_groups;
         group = 0;
     }
@@ -627,19 +629,19 @@ static int fill_indices(lmb_mesh *out, const obj *o, const uint32_t *local, cons
 }
 
 /* If only some vertices have colours, the others are grey or white, as in a file without vertex colours. */
-static void fill_colour(uint8_t *to, const uint8_t *from, int is_grey)
+static void fill_colour(uint16_t *to, const uint16_t *from, int is_grey)
 {
     if (from[3] != 0)
-        memcpy(to, from, 4);
+        memcpy(to, from, 4 * sizeof *to);
     else
-        memset(to, is_grey ? 204 : 255, 3), to[3] = 255;
+        to[0] = to[1] = to[2] = build_linear(is_grey ? 0.8 : 1), to[3] = 65535;
 }
 
 static int fill_positions(lmb_mesh *out, const obj *o, uint32_t material, const uint32_t *used)
 {
     const int is_grey = is_painted(o, material) && o->b->materials[material].texture < 0;
     float *positions = (float *)build_keep(o->b, out->vertex_count, 3 * sizeof *positions);
-    uint8_t *colours = o->colours ? (uint8_t *)build_keep(o->b, out->vertex_count, 4) : NULL;
+    uint16_t *colours = o->colours ? (uint16_t *)build_keep(o->b, out->vertex_count, 4 * sizeof *colours) : NULL;
     uint32_t i;
     if (!positions || (o->colours && !colours))
         return 0;
@@ -650,7 +652,8 @@ static int fill_positions(lmb_mesh *out, const obj *o, uint32_t material, const 
             fill_colour(colours + 4 * (size_t)i, o->colours + 4 * v, is_grey);
     }
     out->positions = positions;
-    out->colours = colours;
+    out->colour_format = colours ? build_narrow(colours, out->vertex_count) : LMB_COLOUR_RGBA8;
+    out->colours = (const uint8_t *)colours;
     out->position_format = LMB_POSITION_F32;
     return 1;
 }

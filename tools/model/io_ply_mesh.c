@@ -73,7 +73,7 @@ static int find_ranges(double range[4], ply *p, const element *e)
 }
 
 /* Returns 1 if an alpha is ignored. */
-static int store_colour(uint8_t to[4], const ply *p, const element *e, const double *values)
+static int store_colour(uint16_t to[4], const ply *p, const element *e, const double *values)
 {
     const double *range = p->range[e == p->face];
     const double alpha = e->roles[ALPHA] ? values[ALPHA] / range[3] : 1;
@@ -81,7 +81,7 @@ static int store_colour(uint8_t to[4], const ply *p, const element *e, const dou
     for (k = 0; k < 3; ++k)
         to[k] = build_colour(p->b, values[RED + k] / range[k]);
     to[3] = build_share(alpha);
-    return to[3] < 255;
+    return to[3] < 65535;
 }
 
 /* --- textures ----------------------------------------------------------------------------------------------------- */
@@ -172,7 +172,7 @@ static int allocate_streams(streams *s, const ply *p, uint32_t n, void *(*get)(m
     const int normals = ply_has(p->vertex, NX, NZ);
     s->positions = (float *)get(p->b, n, 3 * sizeof *s->positions);
     s->normals = normals ? (int16_t *)get(p->b, n, 2 * sizeof *s->normals) : NULL;
-    s->colours = colours ? (uint8_t *)get(p->b, n, 4) : NULL;
+    s->colours = colours ? (uint16_t *)get(p->b, n, 4 * sizeof *s->colours) : NULL;
     s->uvs = uvs ? (float *)get(p->b, n, 2 * sizeof *s->uvs) : NULL;
     return s->positions && !s->normals == !normals && !s->colours == !colours && !s->uvs == !uvs;
 }
@@ -259,7 +259,7 @@ static void set_index(ply *p, size_t at, uint32_t vertex)
 
 /* Returns the index of the wedge with this vertex, uv and colour, and adds it if it is new. uv NULL: use the uv of the
  * vertex, else (0, 0). */
-static uint32_t find_wedge(ply *p, uint32_t vertex, const float *uv, const uint8_t colour[4])
+static uint32_t find_wedge(ply *p, uint32_t vertex, const float *uv, const uint16_t colour[4])
 {
     wedge want = {vertex, p->wedge_of[vertex], {0, 0}, {0, 0, 0, 0}};
     uint32_t at = want.next, seen = 0;
@@ -267,10 +267,10 @@ static uint32_t find_wedge(ply *p, uint32_t vertex, const float *uv, const uint8
         uv = p->s.uvs + 2 * (size_t)vertex;
     if (uv != NULL)
         memcpy(want.uv, uv, sizeof want.uv);
-    memcpy(want.colour, colour, 4);
+    memcpy(want.colour, colour, sizeof want.colour);
     for (; at != 0 && seen < NEAR_WEDGES; at = p->wedges[at - 1].next, ++seen)
         if (memcmp(p->wedges[at - 1].uv, want.uv, sizeof want.uv) == 0 &&
-            memcmp(p->wedges[at - 1].colour, want.colour, 4) == 0)
+            memcmp(p->wedges[at - 1].colour, want.colour, sizeof want.colour) == 0)
             return at - 1;
     p->wedges[p->wedge_count] = want;
     p->wedge_of[vertex] = ++p->wedge_count;
@@ -292,7 +292,7 @@ static uint8_t paint_of(ply *p, const double *values)
 static void number_corners(ply *p, const double *values)
 {
     const int has_uvs = p->has_face_uvs && p->coords == 2 * p->corners;
-    uint8_t colour[4] = {255, 255, 255, 255};
+    uint16_t colour[4] = {65535, 65535, 65535, 65535};
     uint32_t i;
     if (p->has_face_colours)
         p->translucent += store_colour(colour, p, p->face, values) != 0;
@@ -335,7 +335,7 @@ static int read_faces(ply *p, size_t *at)
 
 static size_t put_triangle(ply *p, size_t at, uint32_t a, uint32_t b, uint32_t c)
 {
-    static const uint8_t grey[4] = {204, 204, 204, 255};
+    const uint16_t code = build_linear(0.8), grey[4] = {code, code, code, 65535};
     const uint32_t corner[3] = {a, b, c};
     int k;
     if (p->paint)
@@ -395,7 +395,7 @@ static void copy_vertex(const streams *out, size_t to, const streams *in, size_t
     if (in->normals)
         memmove(out->normals + 2 * to, in->normals + 2 * from, 2 * sizeof *out->normals);
     if (in->colours)
-        memmove(out->colours + 4 * to, in->colours + 4 * from, 4);
+        memmove(out->colours + 4 * to, in->colours + 4 * from, 4 * sizeof *out->colours);
     if (in->uvs)
         memmove(out->uvs + 2 * to, in->uvs + 2 * from, 2 * sizeof *out->uvs);
 }
@@ -434,7 +434,7 @@ static int take_wedges(uint32_t *count, ply *p)
         const wedge *w = &p->wedges[i];
         copy_vertex(&to, i, &p->s, w->vertex);
         if (to.colours)
-            memcpy(to.colours + 4 * (size_t)i, w->colour, 4);
+            memcpy(to.colours + 4 * (size_t)i, w->colour, sizeof w->colour);
         if (to.uvs)
             memcpy(to.uvs + 2 * (size_t)i, w->uv, sizeof w->uv);
     }
@@ -453,7 +453,8 @@ static int fill_mesh(lmb_mesh *out, ply *p)
         return 0;
     out->positions = s->positions;
     out->normals = s->normals;
-    out->colours = s->colours;
+    out->colour_format = s->colours ? build_narrow(s->colours, out->vertex_count) : LMB_COLOUR_RGBA8;
+    out->colours = (const uint8_t *)s->colours;
     out->uvs = s->uvs;
     out->indices = s->indices16 ? (const void *)s->indices16 : (const void *)s->indices32;
     out->triangle_count = (uint32_t)p->triangles;

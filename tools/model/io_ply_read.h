@@ -43,7 +43,7 @@ typedef struct element {
 typedef struct streams {
     float *positions, *uvs;
     int16_t *normals;
-    uint8_t *colours;
+    uint16_t *colours; /* LMB_COLOUR_RGBA16 */
     uint16_t *indices16; /* one of the two, or NULL */
     uint32_t *indices32;
 } streams;
@@ -52,7 +52,7 @@ typedef struct streams {
 typedef struct wedge {
     uint32_t vertex, next; /* next wedge of the same vertex: index + 1 */
     float uv[2];
-    uint8_t colour[4];
+    uint16_t colour[4];
 } wedge;
 
 typedef enum encoding { NO_FORMAT, TEXT, LITTLE_ENDIAN_BYTES, BIG_ENDIAN_BYTES } encoding;

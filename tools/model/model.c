@@ -225,7 +225,7 @@ static int load_content(model_build *b, const file_bytes *file)
 static void fill_linear_of(model_build *b)
 {
     for (int i = 0; i < 256; ++i)
-        b->linear_of[i] = build_share(srgb_decode(i));
+        b->linear_of[i] = build_linear(srgb_decode(i));
 }
 
 int model_read_as(model *out, const char *path, const model_choice *choice, const uint8_t *data, size_t size,

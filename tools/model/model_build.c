@@ -129,15 +129,40 @@ void build_normal_code(model_build *b, int16_t out[2], const double v[3])
     b->marked_normals += zeros;
 }
 
-uint8_t build_share(double v) { return v > 0 ? v < 1 ? (uint8_t)(v * 255 + 0.5) : 255 : 0; }
+uint16_t build_share(double v) { return v > 0 ? v < 1 ? (uint16_t)(v * 65535 + 0.5) : 65535 : 0; }
+
+uint16_t build_linear(double v) { return build_share(v > 0 ? sqrt(v) : 0); }
 
 /* A table converts 8-bit codes, which are the usual case. */
-uint8_t build_colour(const model_build *b, double code)
+uint16_t build_colour(const model_build *b, double code)
 {
     if (b->linear_colours || !(code > 0 && code < 1))
-        return build_share(code);
+        return build_linear(code);
     const int whole = (int)(code * 255 + 0.5);
-    return fabs(code * 255 - whole) < 1e-9 ? b->linear_of[whole] : build_share(srgb_curve(code));
+    return fabs(code * 255 - whole) < 1e-9 ? b->linear_of[whole] : build_linear(srgb_curve(code));
+}
+
+/* The byte of channel k with this code, or the next one, as floats round; or -1. */
+static int byte_of(uint16_t code, size_t k)
+{
+    const double root = code / 65535.0, v = k % 4 < 3 ? root * root : root;
+    const int byte = (int)(v * 255 + 0.5);
+    return abs((k % 4 < 3 ? build_linear(byte / 255.0) : build_share(byte / 255.0)) - code) <= 1 ? byte : -1;
+}
+
+uint8_t build_narrow(uint16_t *codes, size_t n)
+{
+    uint8_t *to = (uint8_t *)codes;
+    size_t i;
+    for (i = 0; i < 4 * n; ++i)
+        if (byte_of(codes[i], i) < 0)
+            return LMB_COLOUR_RGBA16;
+    for (i = 0; i < 4 * n; ++i) { /* each byte lies before the codes that are still to be read */
+        uint16_t code;
+        memcpy(&code, (const uint8_t *)codes + 2 * i, sizeof code);
+        to[i] = (uint8_t)byte_of(code, i);
+    }
+    return LMB_COLOUR_RGBA8;
 }
 
 /* a//b and a/./b are a/b; ".." stays, as it may lead through a link. */

@@ -39,7 +39,7 @@ typedef struct model_build {
     const char *path;      /* file of the model, as given by the user */
     const char *scene;     /* name or number of the scene to load; NULL: the default of the file */
     int linear_colours;    /* vertex colours of OBJ and PLY are linear light, not sRGB codes */
-    uint8_t linear_of[256]; /* by sRGB code */
+    uint16_t linear_of[256]; /* by sRGB code: a code of build_linear */
     int keeps_source;      /* out->source must be filled */
     uint64_t budget;       /* bytes that may still be allocated */
     uint64_t pixel_budget; /* pixels that may still be decoded */
@@ -84,10 +84,16 @@ lmb_vec3 build_normal(const double v[3], uint32_t *zeros);
 #define BUILD_NO_NORMAL INT16_MIN /* no code has it */
 void build_normal_code(model_build *b, int16_t out[2], const double v[3]);
 
-/* build_colour: converts a colour channel of OBJ or PLY, scaled to 0 .. 1, to the linear byte of the library. It rounds
- * once, at the end. build_share: the same without decoding, for alpha. NaN and negative values become 0. */
-uint8_t build_colour(const model_build *b, double code);
-uint8_t build_share(double v);
+/* build_colour: converts a colour channel of OBJ or PLY, scaled to 0 .. 1, to a code of LMB_COLOUR_RGBA16. It rounds
+ * once, at the end. build_linear: the same for a linear channel. build_share: the same for alpha. NaN and negative
+ * values become 0. */
+uint16_t build_colour(const model_build *b, double code);
+uint16_t build_linear(double v);
+uint16_t build_share(double v);
+
+/* build_narrow: the LMB_COLOUR_ format of n vertices in LMB_COLOUR_RGBA16 at `codes`, which become bytes in place if
+ * all of them are exactly bytes. */
+uint8_t build_narrow(uint16_t *codes, size_t n);
 
 /* build_read: reads a file beside the model. It must be a regular file, because a model may name a device that never
  * ends. Each file is read once and raises the budgets once; the bytes stay until loading ends. */

@@ -34,7 +34,9 @@ static uint64_t hash_mesh(uint64_t hash, const lmb_mesh *m)
     hash = hash_array(hash, m->normals, vertices, 4);
     hash = hash_array(hash, m->tangents, vertices, 4);
     hash = hash_array(hash, m->uvs, vertices, m->uv_format == LMB_UV_F32 ? 8 : 4);
-    hash = hash_array(hash, m->colours, vertices, 4);
+    if (m->colours != NULL && m->colour_format != LMB_COLOUR_RGBA8)
+        hash = HASH_OF(hash, m->colour_format);
+    hash = hash_array(hash, m->colours, vertices, m->colour_format == LMB_COLOUR_RGBA8 ? 4 : 8);
     hash = hash_array(hash, m->indices, corners, m->index_format == LMB_INDEX_U16 ? 2 : 4);
     hash = HASH_OF(hash, m->position_scale);
     hash = HASH_OF(hash, m->position_offset);

@@ -114,6 +114,7 @@ void pack_streams(lmb_mesh *out, const lmb_pack *p, uint32_t i)
     out->position_format = (uint8_t)(w[2] & 255u);
     out->uv_format = (uint8_t)(w[2] >> 8 & 255u);
     out->index_format = (uint8_t)(w[2] >> 16 & 255u);
+    out->colour_format = (uint8_t)(w[2] >> 28);
     out->positions = at_offset(p, w[3]);
     out->normals = at_offset(p, w[4]);
     out->tangents = at_offset(p, w[5]);
@@ -130,6 +131,8 @@ static void swap_mesh(uint8_t *file, const lmb_mesh *m)
     swap_at(file, m->normals, 2 * vertices, 2);
     swap_at(file, m->tangents, 2 * vertices, 2);
     swap_at(file, m->uvs, 2 * vertices, m->uv_format == LMB_UV_U16 ? 2 : 4);
+    if (m->colour_format == LMB_COLOUR_RGBA16)
+        swap_at(file, m->colours, 4 * vertices, 2);
     swap_at(file, m->indices, corners, m->index_format == LMB_INDEX_U16 ? 2 : 4);
 }
 

@@ -9,7 +9,7 @@
 #include "../common/fvec.h"
 #include "pack.h"
 
-enum { VERTEX_WORDS = 9 };
+enum { VERTEX_WORDS = 10 };
 #define UV_TEXELS 0.0625 /* error allowed for 16-bit texture coordinates */
 #define EXACT     8388608.0 /* grid steps from the origin up to which binary32 is exact for steps and a mesh's middle */
 
@@ -20,7 +20,7 @@ typedef struct mesh_job {
     double low[3], high[3]; /* bounding box of the corners */
     int has_maps, has_normal_map, may_shift, side;
     double uv_shift[2], uv_scale[2];
-    uint8_t position_format, uv_format, has_colours, is_sane;
+    uint8_t position_format, uv_format, colour_format, has_colours, is_sane;
     double middle[3]; /* steps */
 } mesh_job;
 
@@ -113,8 +113,9 @@ static void measure(mesh_job *j)
             uv_high[k] = (double)uv[k] > uv_high[k] ? (double)uv[k] : uv_high[k];
         }
         if (m->colours != NULL) {
-            const uint8_t *c = m->colours + 4 * (size_t)v;
-            j->has_colours |= (c[0] & c[1] & c[2] & c[3]) != 255;
+            for (int k = 0; k < 4; ++k) {
+                j->has_colours |= own.colour[k] < 1.0f;
+            }
         }
     }
     for (int k = 0; k < 2; ++k) { /* two periods, for mirrored ones */
@@ -239,10 +240,32 @@ static void put_uv(uint32_t *w, const mesh_job *j, uint32_t v, double *error)
     memcpy(w, code, sizeof code);
 }
 
+static void put_colour(uint32_t *w, const mesh_job *j, uint32_t v)
+{
+    const lmb_mesh *m = j->mesh;
+    lmb_vertex own;
+    uint8_t code[4];
+    if (j->colour_format == m->colour_format) {
+        const size_t bytes = m->colour_format == LMB_COLOUR_RGBA16 ? 8 : 4;
+        memcpy(w, m->colours + bytes * v, bytes);
+        return;
+    }
+    lmb_mesh_vertex(&own, m, v);
+    for (int k = 0; k < 4; ++k) {
+        code[k] = (uint8_t)(own.colour[k] * 255.0f + 0.5f);
+    }
+    memcpy(w, code, sizeof code);
+}
+
+static uint32_t colour_words(const mesh_job *j)
+{
+    return j->mesh->colours == NULL ? 0 : j->colour_format == LMB_COLOUR_RGBA16 ? 2 : 1;
+}
+
 static uint32_t words_of(const mesh_job *j)
 {
     return (j->position_format == LMB_POSITION_I16 ? 2 : 3) + (j->mesh->normals != NULL) + (j->mesh->tangents != NULL) +
-           (j->mesh->uvs == NULL ? 0 : j->uv_format == LMB_UV_U16 ? 1 : 2) + (j->mesh->colours != NULL);
+           (j->mesh->uvs == NULL ? 0 : j->uv_format == LMB_UV_U16 ? 1 : 2) + colour_words(j);
 }
 
 static void make_vertex(uint32_t *w, const mesh_job *j, uint32_t v, pack_losses *lost)
@@ -261,7 +284,7 @@ static void make_vertex(uint32_t *w, const mesh_job *j, uint32_t v, pack_losses 
         w += j->uv_format == LMB_UV_U16 ? 1 : 2;
     }
     if (m->colours != NULL) {
-        memcpy(w, m->colours + 4 * (size_t)v, 4);
+        put_colour(w, j, v);
     }
 }
 
@@ -374,12 +397,13 @@ static void put_mesh(pack *out, const mesh_job *j, const vertex_table *t, const 
     pack_word(record, t->count);
     pack_word(record, triangles);
     pack_word(record, (uint32_t)j->position_format | (uint32_t)j->uv_format << 8 | (uint32_t)index_format << 16 |
-                          (m->tangents != NULL ? (uint32_t)m->tangent_format << 24 : 0));
+                          (m->tangents != NULL ? (uint32_t)m->tangent_format << 24 : 0) |
+                          (m->colours != NULL ? (uint32_t)j->colour_format << 28 : 0));
     pack_word(record, put_stream(vertices, t, &at, j->position_format == LMB_POSITION_I16 ? 2 : 3));
     pack_word(record, m->normals != NULL ? put_stream(vertices, t, &at, 1) : 0);
     pack_word(record, m->tangents != NULL ? put_stream(vertices, t, &at, 1) : 0);
     pack_word(record, m->uvs != NULL ? put_stream(vertices, t, &at, j->uv_format == LMB_UV_U16 ? 1 : 2) : 0);
-    pack_word(record, m->colours != NULL ? put_stream(vertices, t, &at, 1) : 0);
+    pack_word(record, m->colours != NULL ? put_stream(vertices, t, &at, colour_words(j)) : 0);
     pack_word(record, put_indices(&out->part[LMB_PACK_INDICES], index, triangles, index_format));
     for (int k = 0; k < 3; ++k) {
         pack_float(record, j->position_format == LMB_POSITION_I16 ? (float)j->step : 0.0f);
@@ -449,6 +473,7 @@ int pack_meshes(pack *out, const lmb_scene *scene, const pack_settings *set, rep
         jobs[i].mesh = &scene->meshes[i];
         jobs[i].may_shift = 1;
         jobs[i].uv_format = LMB_UV_U16;
+        jobs[i].colour_format = set->textures == PACK_RGBA8 ? LMB_COLOUR_RGBA8 : scene->meshes[i].colour_format;
     }
     for (uint32_t i = 0; i < scene->instance_count; ++i) {
         mesh_job *j = &jobs[scene->instances[i].mesh];

@@ -51,7 +51,8 @@ static const option_row rows[] = {
     {.name = "--textures", .kind = OPTION_WORD, AT(textures), .words = formats,
      .counts = offsetof(options, textures_given),
      .help = "of base colours and emission maps, all levels: the smallest that --texture-error allows (default), or "
-             "one for all. Other maps are rgba8, and those with holes are not rgb565"},
+             "one for all. Other maps are rgba8, and those with holes are not rgb565. With rgba8, vertex colours are "
+             "bytes too, for builds without LMB_TEXTURE_FORMATS"},
     {.name = "--texture-error", .value = "CODES", .kind = OPTION_NUMBER, AT(texture_error), .low = 0.0, .high = 255.0,
      .counts = offsetof(options, texture_given),
      .help = "maximum error of a texture's codes, of 255, as the root of the mean square; twice as "
@@ -99,7 +100,7 @@ static void say_vertices(const lmb_pack *p, double all)
         normals += m.normals != NULL ? 4.0 * m.vertex_count : 0.0;
         tangents += m.tangents != NULL ? 4.0 * m.vertex_count : 0.0;
         uvs += m.uvs == NULL ? 0.0 : (m.uv_format == LMB_UV_U16 ? 4.0 : 8.0) * m.vertex_count;
-        colours += m.colours != NULL ? 4.0 * m.vertex_count : 0.0;
+        colours += m.colours == NULL ? 0.0 : (m.colour_format == LMB_COLOUR_RGBA16 ? 8.0 : 4.0) * m.vertex_count;
     }
     say_part("positions", positions, all);
     say_part("normals", normals, all);

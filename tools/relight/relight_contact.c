@@ -210,10 +210,23 @@ static void shade_samples(float (*share)[3], contact *c, const relight_options *
     }
 }
 
-static void colour_vertex(uint8_t out[4], const hidden_part *p, uint32_t vertex, float (*share)[3])
+/* The codes of a vertex with `share` of its light, in the format of the mesh. */
+static void put_shaded(uint8_t *to, const lmb_mesh *m, const lmb_vertex *own, const float share[3])
 {
-    static const uint8_t white[4] = {255, 255, 255, 255};
-    const uint8_t *own = p->mesh.colours != NULL ? p->mesh.colours + 4 * (size_t)vertex : white;
+    for (int h = 0; h < 4; ++h) {
+        const float part = h < 3 ? fminf(share[h], 1.0f) : 1.0f, v = own->colour[h] * part;
+        if (m->colour_format == LMB_COLOUR_RGBA16) {
+            const uint16_t code = (uint16_t)((h < 3 ? sqrtf(v) : v) * 65535.0f + 0.5f);
+            memcpy(to + 2 * h, &code, sizeof code);
+        } else {
+            to[h] = (uint8_t)(floorf(own->colour[h] * 255.0f + 0.5f) * part + 0.5f);
+        }
+    }
+}
+
+static void colour_vertex(uint8_t *out, const hidden_part *p, uint32_t vertex, float (*share)[3])
+{
+    lmb_vertex own = {.colour = {1.0f, 1.0f, 1.0f, 1.0f}};
     float sum[3] = {0.0f, 0.0f, 0.0f};
     for (int i = 0; i < (p->share != NULL ? HIDDEN_SHARES : 1); ++i) {
         uint32_t sample;
@@ -222,10 +235,8 @@ static void colour_vertex(uint8_t out[4], const hidden_part *p, uint32_t vertex,
             sum[h] += weight * share[sample][h];
         }
     }
-    for (int h = 0; h < 3; ++h) {
-        out[h] = (uint8_t)((float)own[h] * fminf(sum[h], 1.0f) + 0.5f);
-    }
-    out[3] = own[3];
+    lmb_mesh_vertex(&own, &p->mesh, vertex);
+    put_shaded(out, &p->mesh, &own, sum);
 }
 
 static int shade_part(contact *c, const relight_options *o, uint32_t instance)
@@ -238,8 +249,9 @@ static int shade_part(contact *c, const relight_options *o, uint32_t instance)
     for (uint32_t first = 0; first < p->samples; first += LMB_TILE_PIXELS) {
         shade_samples(share, c, o, p, instance / c->hidden.parts, first);
     }
+    const size_t each = p->mesh.colour_format == LMB_COLOUR_RGBA16 ? 8 : 4;
     for (uint32_t i = 0; i < p->mesh.vertex_count; ++i) {
-        colour_vertex(c->colours[instance] + 4 * (size_t)i, p, i, share);
+        colour_vertex(c->colours[instance] + each * i, p, i, share);
     }
     free(share);
     return 1;
@@ -252,7 +264,7 @@ static int take_meshes(contact *c)
     int ok = 1;
     for (uint32_t i = 0; ok && i < c->instances; ++i) {
         const lmb_mesh *m = &c->hidden.part[i % c->hidden.parts].mesh;
-        c->colours[i] = malloc(4 * (size_t)m->vertex_count + 1);
+        c->colours[i] = malloc((m->colour_format == LMB_COLOUR_RGBA16 ? 8 : 4) * (size_t)m->vertex_count + 1);
         c->meshes[i] = *m;
         c->meshes[i].colours = c->colours[i];
         ok = c->colours[i] != NULL;

@@ -59,14 +59,15 @@ static lmb_vec3 position_of(const lmb_mesh *m, uint32_t vertex)
 /* Splits a flat-shaded mesh into separate vertices per corner. */
 static int take_mesh(hidden_part *out, const lmb_mesh *from)
 {
-    static const size_t position_bytes[] = {12, 8}, uv_bytes[] = {8, 4};
+    static const size_t position_bytes[] = {12, 8}, uv_bytes[] = {8, 4}, colour_bytes[] = {4, 8};
     out->mesh = *from;
     if (from->normals != NULL) {
         return 1;
     }
     const size_t n = 3 * (size_t)from->triangle_count,
                  size[4] = {position_bytes[from->position_format], from->uvs != NULL ? uv_bytes[from->uv_format] : 0,
-                            from->tangents != NULL ? 4 : 0, from->colours != NULL ? 4 : 0};
+                            from->tangents != NULL ? 4 : 0,
+                            from->colours != NULL ? colour_bytes[from->colour_format] : 0};
     const void *source[4] = {from->positions, from->uvs, from->tangents, from->colours};
     uint8_t *to[4], *p = malloc(n * (size[0] + size[1] + size[2] + size[3]) + 1);
     if ((out->memory = p) == NULL) {
