@@ -47,6 +47,10 @@ done
 status 0 pack dark.ply --textures rgba8 -o bytes.lmp
 status 0 render bytes.lmp --size 16x16 --show albedo --eye 0,0,3 --target 0,0,0 -o dark.pfm
 check "--textures rgba8 packs bytes" sh -c '[ "$(tail -c 1632 dark.pfm | head -c 12 | od -An -v -tx4 | tr -d " 0")" = "" ]'
+status 0 pack dark.ply -o little.lmp --endian little
+status 0 pack dark.ply -o big.lmp --endian big
+check "little-endian colours" sh -c 'od -An -v -tx1 little.lmp | tr -d " \n" | grep -q 76044f06ba07ffff'
+check "big-endian colours" sh -c 'od -An -v -tx1 big.lmp | tr -d " \n" | grep -q 0476064f07baffff'
 dark="0.000305 0.00061 0.000916" # as 65535ths
 check "so does a baked GLB" albedo dark.glb
 
