@@ -43,6 +43,7 @@ typedef struct masked_surface {
     int part; /* of the current tile: COVERS_SOME, COVERS_UNKNOWN, LMB_COVERS_NONE or LMB_COVERS_ALL */
 } masked_surface;
 
+#if LMB_MULTISAMPLE
 /* A 32-bit hash of a surface and a square of pixels. */
 static uint32_t hash_square(uint32_t own, uint32_t x, uint32_t y)
 {
@@ -79,6 +80,7 @@ static float threshold(const masked_surface *s, const lmb_view *v, int32_t x, in
     const uint32_t at = (uint32_t)(v->sample_x + 128) + 4 * rank_of(own, px, py) + part + 64 * quarter;
     return ((float)(at & 255u) + 0.5f) * (1.0f / 256.0f);
 }
+#endif
 
 #if LMB_TREES
 /* The plane's barycentrics at the corner (x, y) of the tile, and the ray's slope to the plane. */
