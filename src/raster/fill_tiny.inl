@@ -57,6 +57,8 @@ LANE_INLINE int tiny_lowest(uint64_t bits)
 #endif
 }
 
+static const float tiny_number[LMB_TILE] = {0, 1, 2, 3, 4, 5, 6, 7};
+
 /* Draws `pixels` of the tile that starts at pixel (x, y). */
 LANE_INLINE void tiny_tile(const lmb_fill_window *w, const lmb_batch *t, int k, int32_t x, int32_t y, uint64_t pixels)
 {
@@ -70,13 +72,14 @@ LANE_INLINE void tiny_tile(const lmb_fill_window *w, const lmb_batch *t, int k, 
     const uint32_t own = t->id[k];
     for (; pixels != 0; pixels &= pixels - 1) {
         const int at = tiny_lowest(pixels);
-        float here = (d + dy * (float)(at >> 3)) + dx * (float)(at & 7);
+        float here = (d + dy * tiny_number[at >> 3]) + dx * tiny_number[at & 7];
         here = here > low ? here : low;
         here = here < high ? here : high;
-        if (depth[at] < here) {
-            depth[at] = here;
-            id[at] = own;
-        }
+        /* Whether a pixel is nearer is as good as random, so no branch. */
+        const float old = depth[at];
+        const uint32_t was = id[at], passes = 0u - (uint32_t)(old < here);
+        depth[at] = old < here ? here : old;
+        id[at] = was ^ ((was ^ own) & passes);
     }
 }
 

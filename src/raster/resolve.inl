@@ -19,6 +19,7 @@ static uint64_t KERNEL(resolve_shown)(const uint32_t id[LMB_TILE_PIXELS])
     return ~none;
 }
 
+#if !defined(LANE_PLAIN) || LANES == 1
 /* `left` without the pixels of other instances. */
 LANE_INLINE uint64_t resolve_own(const lmb_resolve_batch *b, const uint32_t *id, uint64_t left)
 {
@@ -31,8 +32,11 @@ LANE_INLINE uint64_t resolve_own(const lmb_resolve_batch *b, const uint32_t *id,
     }
     return left & own;
 }
+#endif
 
-#if LANES < LMB_TILE
+#if defined(LANE_PLAIN) && LANES > 1
+#include "resolve_plain.inl"
+#elif LANES < LMB_TILE
 /* Assigns the slot to the pixels of k .. k + LANES - 1 that have the id. Returns them. */
 LANE_INLINE uint32_t resolve_take(int32_t *slot, const uint32_t *id, int k, lanei wanted, lanei number)
 {
@@ -316,8 +320,32 @@ LANE_INLINE void resolve_uv(lmb_resolve_batch *b, int k)
     }
 }
 
+#if defined(LANE_PLAIN) && LANES > 1
+/* 1 if only colour is needed, for rays from one point. */
+LANE_INLINE int resolve_by_loops(const lmb_resolve_batch *b) { return b->albedo_only && b->rays.perspective; }
+
+LANE_INLINE void resolve_setup_loops(lmb_resolve_batch *inout)
+{
+    for (int k = 0; k < inout->count; k += PLAIN_SET) {
+        plain_set_planes(inout, k);
+        if (inout->mesh->colours != NULL) {
+            plain_set_albedo(inout, k);
+        }
+        for (int i = 0; inout->mesh->uvs != NULL && i < PLAIN_SET; i += LANES) {
+            resolve_uv(inout, k + i);
+        }
+    }
+}
+#endif
+
 static void KERNEL(resolve_setup)(lmb_resolve_batch *inout)
 {
+#if defined(LANE_PLAIN) && LANES > 1
+    if (resolve_by_loops(inout)) {
+        resolve_setup_loops(inout);
+        return;
+    }
+#endif
     const float *m = inout->instance->to_world.m;
     const lmb_vec3 column[4] = {vec3(m[0], m[1], m[2]), vec3(m[4], m[5], m[6]), vec3(m[8], m[9], m[10]),
                                 vec3(m[12], m[13], m[14])};
@@ -499,6 +527,12 @@ LANE_INLINE void resolve_all(lmb_tile *out, const lmb_resolve_batch *batch, int 
 
 static void KERNEL(resolve)(lmb_tile *out, const lmb_resolve_batch *batch)
 {
+#if defined(LANE_PLAIN) && LANES > 1
+    if (resolve_by_loops(batch)) {
+        plain_resolve(out, batch);
+        return;
+    }
+#endif
     if (resolve_from_eye(batch)) {
         resolve_all(out, batch, 1);
     } else {

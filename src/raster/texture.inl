@@ -2,6 +2,7 @@
  *
  * Same values as texture.c. */
 #include "../base/codec.h"
+#include "texels.h"
 #include "texture.h"
 
 LANE_INLINE lane texture_floor(lane v)
@@ -39,7 +40,9 @@ LANE_INLINE lanei texture_wrap(lanei i, lanei size, int32_t wrap)
     return lanei_pick(before, lanei_add(i, size), lanei_pick(past, lanei_sub(i, size), i));
 }
 
-#if defined(LANE_PLAIN)
+#if defined(LANE_PLAIN) && LANES > 1
+#include "texture_plain.inl"
+#elif defined(LANE_PLAIN)
 /* Without vectors, uses the sampler for single pixels, which exists for holes anyway. Four unrolled lanes are a tenth
  * faster, but take 4.8 KB of stack on a Cortex-M4F. */
 static void KERNEL(texture)(lmb_tile *inout, const lmb_resolve_batch *batch, const lmb_texture *t)
