@@ -28,21 +28,24 @@ LANE_INLINE lanei encode_lanes(lane value)
 /* Compilers turn these loops into vectors, except for the thresholds. Same values as encode_lanes. */
 NOINLINE void encode_plain(uint8_t code[LMB_TILE_PIXELS], const float value[LMB_TILE_PIXELS], float gain)
 {
-    float x[LMB_TILE_PIXELS];
-    int32_t guess[LMB_TILE_PIXELS];
+    /* All in arrays: compilers make branches of a product, or a conversion, of which only one side has need. */
+    float x[LMB_TILE_PIXELS], line[LMB_TILE_PIXELS], curve[LMB_TILE_PIXELS];
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         x[k] = minf(maxf(value[k] * gain, 0.0f), 1.0f);
     }
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        const float root = sqrtf(x[k]), line = 12.92f * 255.0f * x[k];
-        float curve = -78.940811f * root + 214.911713f;
-        curve = curve * root + -240.93952f;
-        curve = curve * root + 369.214329f;
-        curve = curve * root + -9.43618988f;
-        guess[k] = (int32_t)(x[k] < 0.0031308f ? line : curve);
+        const float root = sqrtf(x[k]);
+        float v = -78.940811f * root + 214.911713f;
+        v = v * root + -240.93952f;
+        v = v * root + 369.214329f;
+        curve[k] = v * root + -9.43618988f;
+        line[k] = 12.92f * 255.0f * x[k];
     }
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        const int32_t low = mini(guess[k], 254);
+        curve[k] = x[k] < 0.0031308f ? line[k] : curve[k];
+    }
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const int32_t low = mini((int32_t)curve[k], 254);
         code[k] = (uint8_t)(low + (lmb_srgb_threshold[low + 1] <= x[k]));
     }
 }
