@@ -69,6 +69,35 @@ int bench_peers_run(double *out_ms, const bench_peers *p, int i, const char *nam
     default: break;
     }
     *out_ms = find_time(printed, name);
-    return *out_ms > 0.0 ||
+    return *out_ms > 0.0 || printed[0] == '\0' ||
            report_fail(r, "%s: printed no line NAME,%s,...,cpu_min_ms=MS; see tools/README.md", path, name);
+}
+
+static void print_row(const bench_peer_case *row, int count)
+{
+    printf("| %s | %.3g |", row->name, row->own_ms);
+    for (int i = 0; i < count; ++i) {
+        if (row->ms[i] > 0.0) {
+            printf(" %.3g (%.3g) |", row->ms[i], row->ms[i] / row->own_ms);
+        } else {
+            printf(" - |");
+        }
+    }
+    puts("");
+}
+
+void bench_peers_print(const bench_peers *p)
+{
+    printf("\n| case, ms (times ours) | lambent |");
+    for (int i = 0; i < p->found.count; ++i) {
+        printf(" %s |", p->found.name[i]);
+    }
+    printf("\n|---|---|");
+    for (int i = 0; i < p->found.count; ++i) {
+        printf("---|");
+    }
+    puts("");
+    for (int i = 0; i < p->count; ++i) {
+        print_row(&p->row[i], p->found.count);
+    }
 }

@@ -5,10 +5,20 @@
 #include "../../platform/host/programs.h"
 #include "../common/report.h"
 
-/* The programs of a folder. */
+enum { BENCH_PEER_CASES = 32 };
+
+/* Times of a case, ms; 0: the program does not draw it. */
+typedef struct bench_peer_case {
+    const char *name;
+    double own_ms, ms[PROGRAMS];
+} bench_peer_case;
+
+/* The programs of a folder, and their times. */
 typedef struct bench_peers {
     const char *folder; /* NULL: none */
     programs found;
+    bench_peer_case row[BENCH_PEER_CASES];
+    int count;
 } bench_peers;
 
 /* bench_peers_find: finds the folder's programs, and sets their environment: the folder of the meshes and the time per
@@ -18,7 +28,11 @@ int bench_peers_find(bench_peers *out, const char *folder, const char *data, dou
 /* bench_peers_run: runs program i on a case and parses the shortest processor time of a frame, ms, from a line that it
  * must print:
  * NAME,CASE,...,cpu_min_ms=MS,...
- * Returns 1, or 0 with `r` set if the program fails or prints no such line. */
+ * If it prints nothing, it does not draw the case: 0 ms. Returns 1, or 0 with `r` set if the program fails or prints
+ * something else. */
 int bench_peers_run(double *out_ms, const bench_peers *peers, int i, const char *name, report *r);
+
+/* bench_peers_print: the times of all cases as a table in Markdown: ms, and how many times ours that is. */
+void bench_peers_print(const bench_peers *peers);
 
 #endif

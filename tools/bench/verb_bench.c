@@ -256,14 +256,19 @@ static void print_case(const bench_case *k, const bench_scene *s, const timing *
 }
 
 /* Runs the peers, and prints their times relative to ours. */
-static int run_peers(const bench_peers *p, const bench_case *k, const timing *t, const options *o, report *r)
+static int run_peers(bench_peers *p, const bench_case *k, const timing *t, const options *o, report *r)
 {
+    bench_peer_case *row = &p->row[p->count];
+    row->name = k->name;
+    row->own_ms = t->cpu[0] * 1e3;
+    p->count += p->found.count > 0 && p->count < BENCH_PEER_CASES - 1;
     for (int i = 0; i < p->found.count; ++i) {
         double ms = 0.0;
         if (!bench_peers_run(&ms, p, i, k->name, r)) {
             return 0;
         }
-        if (!o->is_quiet) {
+        row->ms[i] = ms;
+        if (!o->is_quiet && ms > 0.0) {
             printf(o->json ? "{\"peer\":\"%s\",\"case\":\"%s\",\"cpu_min_ms\":%.4f,\"times\":%.3f}\n"
                            : "%s,%s,cpu_min_ms=%.4f,times=%.3f\n",
                    p->found.name[i], k->name, ms, ms / (t->cpu[0] * 1e3));
@@ -284,7 +289,7 @@ static void keep_share(bench_shares *b, const bench_case *k, const timing *t)
     }
 }
 
-static int run_case(bench_shares *shares, const bench_case *k, const bench_peers *peers, const options *o, report *r)
+static int run_case(bench_shares *shares, const bench_case *k, bench_peers *peers, const options *o, report *r)
 {
     static bench_scene s;
     static timing t;
@@ -429,6 +434,9 @@ static int run_raster(const options *o, report *r)
         if (is_wanted(&bench_cases[i], o) && !run_case(&shares, &bench_cases[i], &peers, o, r)) {
             return 0;
         }
+    }
+    if (o->peers != NULL && !o->json && !o->is_quiet) {
+        bench_peers_print(&peers);
     }
     return o->html == NULL || write_shares(o->html, &shares, r);
 }
