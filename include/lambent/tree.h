@@ -118,6 +118,8 @@ typedef struct lmb_cut_params {
     lmb_glossy *glossy;           /* the tile's lobes, to which the reflection of the nodes is added; NULL: none */
     const lmb_view *view;         /* the pixels' view: a pixel within rounding of a wall's plane counts as on the eye's
                                      side. NULL: such a pixel gets no light from that wall */
+    int32_t tests;                /* visibility tests before the light becomes coarser, LMB_TRAVERSAL_FIRST at most: see
+                                     lmb_traversal. A share of them also gets that share of nodes. 0: the most */
 } lmb_cut_params;
 
 #ifdef __cplusplus

@@ -26,7 +26,8 @@
 #define STAND_OFF          4.0f  /* times the noise: offset of a texel's point towards the light */
 #define LARGE_NOISE        1.5258789e-5f /* 2^-16 of the distance to the eye: the origin is then 64 times as far away */
 #define SPENT_TILE_FACTOR     8.0  /* factor on the allowed light and error in a tile that has used up the tests */
-#define SPENT_TILE_NODES      6144 /* maximum of nodes there; with fewer, a turned grille has 1.25 x the error */
+#define SPENT_TILE_NODES      6144 /* maximum of nodes there; with fewer, a turned grille has 1.25 x the error. With a
+                                      share of the tests, the same share of these */
 #define MAX_SPLIT_ERROR_SHARE 0.7  /* a split of the pixels must reduce the error to this share to be worth the cuts */
 #define FACETS_NEAR        3.0f /* times LMB_NEAR and half the diagonal of a cell: nearer texels show facets */
 enum { LEAF_PARTS_A_SIDE = 4 /* for a lobe, a near leaf is LEAF_PARTS_A_SIDE x LEAF_PARTS_A_SIDE parts */ };
@@ -54,6 +55,7 @@ typedef struct cutter {
     int highest;         /* no higher bucket is in use */
     double error, value; /* sums; value: visible light only */
     double floor;        /* W/m2, R + G + B: smaller errors are ignored */
+    int32_t spent_nodes; /* maximum of nodes of a cut in a tile that has used up the tests */
 } cutter;
 
 static double maxd(double a, double b) { return a > b ? a : b; }
@@ -194,7 +196,7 @@ static double counted_error(const cutter *c, int32_t i)
 }
 
 /* 1 if the tile has used up the visibility tests. Tested nodes are then no longer split, nodes may carry more light and
- * error, a cut has at most SPENT_TILE_NODES, and pixels that share a cut stay together. Anything else needs more tests,
+ * error, a cut has at most `spent_nodes`, and pixels that share a cut stay together. Anything else needs more tests,
  * and light that triangles chop up would need many nodes even without tests. A conservative bound holds in every
  * tile. */
 static int is_spent(const cutter *c) { return !c->cut_params->conservative && c->cut->use.traversal.left < 0; }
@@ -449,7 +451,7 @@ static void divide_entry(cutter *c, int32_t i, uint64_t visible, int asks)
 
 static int has_room(const cutter *c)
 {
-    return c->cut->count + 3 <= LMB_MAX_CUT && !(is_spent(c) && c->cut->count > SPENT_TILE_NODES);
+    return c->cut->count + 3 <= LMB_MAX_CUT && !(is_spent(c) && c->cut->count > c->spent_nodes);
 }
 
 /* Largest light of a node with a single visibility test. */
@@ -1071,7 +1073,8 @@ lmb_status lmb_gather_cut(lmb_irradiance *inout, const lmb_kernels *kernels, lmb
     c.kernels = kernels;
     c.cut_params = cut_params;
     c.floor = (double)cut_params->floor;
-    scratch->tests_left = LMB_TRAVERSAL_FIRST;
+    scratch->tests_left = cut_params->tests > 0 ? mini(cut_params->tests, LMB_TRAVERSAL_FIRST) : LMB_TRAVERSAL_FIRST;
+    c.spent_nodes = SPENT_TILE_NODES / (LMB_TRAVERSAL_FIRST / scratch->tests_left);
     scratch->coarse = 0;
     for (uint64_t left = tile_pixels(tile); left != 0;) {
         const uint64_t pixels = tile_surface(tile, left);

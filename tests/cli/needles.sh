@@ -34,6 +34,14 @@ status 0 bake few.obj -o one.lmt --elements 64 --receivers 64 --cluster 3 --thre
 check "bake prints no note" grep -q '^lambent: note: [1-9][0-9]* sights have coarser visibility' err.txt
 status 0 bake few.obj -o three.lmt --elements 64 --receivers 64 --cluster 3 --threads 3
 check "threads change coarse visibility of a bake" cmp one.lmt three.lmt
+# All samples of a tile together have as many tests as its pixels' middles.
+awk -v many=2000 "$crossing" >samples.obj
+for n in 1 4; do
+    status 0 render samples.obj --quality draft --samples $n --size 8x8 --eye 0,1.5,2 --target 0,1.5,0 --shadow-map 256 \
+        --light point:0.3,2.7,0.2:0,-1,0:6,6,6 -o samples.pfm --stats samples$n.json
+done
+check "samples of crossing triangles take too many tests" \
+    test "$((10 * $(count samples4.json segments)))" -lt "$((11 * $(count samples1.json segments)))"
 status 0 render demo $small -o demo.pfm --stats demo.json
 check "an ordinary scene has coarse tiles" lacks coarser err.txt
 check "an ordinary scene counts tiles" test "$(count demo.json coarse_tiles)" -eq 0 -a "$(count demo.json tiles)" -gt 0
