@@ -1703,14 +1703,18 @@ static void check_grazing(int32_t kind, int32_t format, int orthographic)
 }
 
 /* 16-bit depth agrees with 32-bit depth, compared for each pixel and emitter. */
-static void check_depth_formats(int32_t kind)
+static void check_depth_formats(int32_t kind, int orthographic)
 {
     test_rng rng = {21};
     lmb_view v = look_near(vec3(0.7f, 0.5f, 0.8f), vec3(-0.2f, -0.5f, -0.3f), 75);
     int pairs = 0, differ = 0, hidden = 0;
     make_room();
     v.far_m = 4.0f;
-    for (int e = 0; e < 24; ++e) {
+    if (orthographic) {
+        v.kind = LMB_ORTHOGRAPHIC;
+        v.half_width = v.half_height = 1.2f;
+    }
+    for (int e = 0; e < (orthographic ? 6 : 24); ++e) {
         lmb_vec3 n = random_unit(&rng), at = mul3(n, 0.98f / maxf(absf(n.x), maxf(absf(n.y), absf(n.z))));
         one_emitter(at, mul3(at, -1.0f));
         draw_view(&v, LMB_DEPTH32F);
@@ -1780,7 +1784,8 @@ static void test_occlusion(void)
         for (int i = 0; i < 4; ++i) {
             check_grazing(kinds[k], i & 1 ? LMB_DEPTH16 : LMB_DEPTH32F, i >> 1);
         }
-        check_depth_formats(kinds[k]);
+        check_depth_formats(kinds[k], 0);
+        check_depth_formats(kinds[k], 1);
     }
     check_depth_layouts();
     check_linear_occluded();

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "../../src/frame/live_grid.h"
+#include "lambent/plan.h"
 #include "../../tools/demo/demo_scene.h"
 #include "../reused_frame.h"
 #include "../laid_out.h"
@@ -307,6 +308,25 @@ static void test_flat_wall(void)
     CHECK(share < 0.06f && error < 0.12f);
 }
 
+/* A plan counts the memory of the live tree. */
+static void test_planned(void)
+{
+    static lmb_plan plan;
+    uint64_t bytes[2];
+    make_corner();
+    const lmb_frame_settings s = settings_of(&world.scene, demo_view(WIDTH, HEIGHT), LMB_GATHER_LIVE);
+    lay_out(&s);
+    for (int is_live = 0; is_live < 2; ++is_live) {
+        frame.gather_step = is_live ? LMB_GATHER_LIVE : 1;
+        memset(&render, 0, sizeof render);
+        CHECK(lmb_render_begin(&render, &frame) == LMB_OK && lmb_plan_frame(&plan, &render, NULL) == LMB_OK);
+        bytes[is_live] = plan.row[LMB_PLAN_POINTS].bytes;
+    }
+    const uint32_t faces = frame.live->face_cap;
+    CHECK(faces > 0 && bytes[1] - bytes[0] ==
+                           lmb_live_bytes(faces, lmb_live_side(faces, frame.shadow_map), frame.elements.cap));
+}
+
 /* Tiles with a polished surface are fully gathered: each pixel equals a separate gather bit for bit. */
 static void test_lobes(void)
 {
@@ -414,6 +434,7 @@ void test_live_frames(void)
     test_same_bytes(129, 9);
     test_history();
     test_flat_wall();
+    test_planned();
     test_lobes();
     test_shift();
     test_refused();
