@@ -329,7 +329,7 @@ LANE_INLINE void resolve_setup_loops(lmb_resolve_batch *inout)
     for (int k = 0; k < inout->count; k += PLAIN_SET) {
         plain_set_planes(inout, k);
         if (inout->mesh->colours != NULL) {
-            plain_set_albedo(inout, k);
+            (mesh_colours_are_wide(inout->mesh) ? plain_set_wide_albedo : plain_set_albedo)(inout, k);
         }
         for (int i = 0; inout->mesh->uvs != NULL && i < PLAIN_SET; i += LANES) {
             resolve_uv(inout, k + i);

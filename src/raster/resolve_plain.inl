@@ -173,6 +173,20 @@ NOINLINE void plain_set_albedo(lmb_resolve_batch *b, int from)
     }
 }
 
+/* The same for colours of 16 bits, which are decoded already. */
+NOINLINE void plain_set_wide_albedo(lmb_resolve_batch *b, int from)
+{
+    for (int c = 0; c < 3; ++c) {
+        const float own = b->material->albedo[c];
+        for (int k = from; k < from + PLAIN_SET; ++k) {
+            const float v = own * b->albedo[0][c][k];
+            b->albedo[0][c][k] = v;
+            b->albedo[1][c][k] = own * b->albedo[1][c][k] - v;
+            b->albedo[2][c][k] = own * b->albedo[2][c][k] - v;
+        }
+    }
+}
+
 /* --- pixels ------------------------------------------------------------------------------------------------------- */
 
 /* Rays of a tile's pixels. The limits are read from memory: compilers make branches of constant ones. */
