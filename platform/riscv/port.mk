@@ -22,3 +22,4 @@ PORT_CFLAGS  := $(isa_$(XLEN)) -mcmodel=medany -ffreestanding -fbuiltin $(BARE_C
 # Limits: 256 KiB for the demo; the golden suite, built with the host's settings, may use more.
 $(B)/demo: RAM_BYTES = 262144
 $(B)/golden: ROM_BYTES = 1048576
+$(B)/golden: RAM_BYTES = 8388608

@@ -684,11 +684,12 @@ static uint64_t case_facets(int variant)
 /* The soup with light at single points, each near some of the map's texels. Variant: occlusion, and STEADY. */
 enum { STEADY = 16 };
 
+static uint64_t live_memory[1 << 13] GOLDEN_ALIGNED, lattice[10 * 8 * 192] GOLDEN_ALIGNED;
+static lmb_live_scratch live_scratch;
+static lmb_live live;
+
 static uint64_t case_live(int variant)
 {
-    static uint64_t live_memory[1 << 13] GOLDEN_ALIGNED, lattice[10 * 8 * 192] GOLDEN_ALIGNED;
-    static lmb_live_scratch live_scratch;
-    static lmb_live live;
     lmb_frame f = soup_frame(1, TREE);
     f.gather_step = LMB_GATHER_LIVE;
     f.occlusion = variant % STEADY;
@@ -704,10 +705,7 @@ static uint64_t case_live(int variant)
 static uint64_t case_live_sky(int variant)
 {
     enum { SUNS = 96 };
-    static uint64_t live_memory[1 << 13] GOLDEN_ALIGNED, sky_memory[5 << 10] GOLDEN_ALIGNED,
-        stream_memory[SUNS * 100] GOLDEN_ALIGNED, lattice[10 * 8 * 192] GOLDEN_ALIGNED;
-    static lmb_live_scratch live_scratch;
-    static lmb_live live;
+    static uint64_t sky_memory[5 << 10] GOLDEN_ALIGNED, stream_memory[SUNS * 100] GOLDEN_ALIGNED;
     static lmb_live_sky sky;
     const lmb_vec3 none = {0, 0, 0};
     lmb_many_lights suns;
