@@ -154,10 +154,11 @@ static void direct_at(uint32_t out[3], const lamp_now *l, const fixed_receiver *
         const int32_t cosine = (int32_t)((size * per) >> 16);
         e = high_of(e, cone_of(l, to < 0 ? -cosine : cosine) << 17);
     }
+    /* at most 26, because k <= 14, units_log2 <= 16 and bits >= 2 */
     const int32_t up = 2 * (k + l->s->units_log2) - 32 - l->bits;
     for (int c = 0; c < 3; ++c) {
         const uint32_t v = high_of(e, l->colour[c] << 16);
-        out[c] = up <= -32 ? 0 : up <= 0 ? v >> -up : up > 26 || v > (uint32_t)MAX_LIGHT >> up ? MAX_LIGHT : v << up;
+        out[c] = up <= -32 ? 0 : up <= 0 ? v >> -up : v > (uint32_t)MAX_LIGHT >> up ? MAX_LIGHT : v << up;
         out[c] = out[c] > MAX_LIGHT ? MAX_LIGHT : out[c];
     }
 }
