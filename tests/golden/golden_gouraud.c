@@ -8,7 +8,6 @@
 enum { MAP = 32 };
 
 typedef struct gouraud_space {
-    small_room room;
     uint32_t file[SMALL_TRANSFER_WORDS(ROOM_TRIANGLES)];
     uint32_t light_memory[9 * SMALL_ELEMENTS + 2 * SMALL_NODES + 3 * SMALL_RECEIVERS + 9 * SMALL_CLUSTERS +
                           SMALL_ELEMENTS * sizeof(lmb_transfer_coarse) / 4 +
@@ -22,6 +21,7 @@ typedef struct gouraud_space {
     lmb_transfer_light light;
     lmb_shadow_map map;
     lmb_gouraud frame;
+    small_room room; /* last: where words are aligned to 2 bytes, its size is no multiple of 4 */
 } gouraud_space;
 
 GOLDEN_FITS(gouraud_space, first);
