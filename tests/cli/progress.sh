@@ -5,13 +5,19 @@ pit
 floor
 photo
 
-# If stderr is no terminal, bake prints a line every ten seconds. Two bakes start, stand still from half a second to
-# nine seconds, and end a second after their first line. They run in the background during the other tests.
+# If stderr is no terminal, bake prints a line every ten seconds, also during a long part of a step. Two bakes start,
+# stand still from half a second to nine seconds, and end a second after their first line. Their 39,000 first receivers
+# are one part of eight seconds. They run in the background during the other tests.
+awk 'BEGIN {
+    n = 90
+    for (i = 0; i <= n; ++i) for (k = 0; k <= n; ++k) print "v", i / n, (i * 7 + k * 5) % 11 / 400, k / n
+    for (i = 0; i < n; ++i) for (k = 1; k <= n; ++k) { a = i * (n + 1) + k; print "f", a, a + 1, a + n + 2, a + n + 1 }
+}' >field.obj
 begun=$(date +%s%N)
 for name in log quiet; do
     quietly= && [ $name = log ] || quietly=-q
-    timeout --preserve-status -s TERM 600 sh -c 'echo $$ >$0.pid && exec "$@"' $name "$TOOL" bake demo --quality best --threads 1 \
-        $quietly -o $name.lmt >$name-out.txt 2>$name-err.txt &
+    timeout --preserve-status -s TERM 600 sh -c 'echo $$ >$0.pid && exec "$@"' $name "$TOOL" bake field.obj --elements 1024 \
+        --receivers 50000 --cluster 0.001 --threads 1 $quietly -o $name.lmt >$name-out.txt 2>$name-err.txt &
 done
 # passed TENTHS: checks that so many tenths of a second have passed.
 passed() { [ $((($(date +%s%N) - begun) / 100000000)) -ge "$1" ]; }
@@ -23,6 +29,7 @@ passed() { [ $((($(date +%s%N) - begun) / 100000000)) -ge "$1" ]; }
     until passed 98; do sleep 0.1; done
     [ ! -s log-err.txt ] || passed 100 || echo "a line before ten seconds" >early.txt
     for tenth in $(seq 600); do [ -s log-err.txt ] || sleep 0.1; done
+    passed 140 && echo "the first line comes late" >late.txt
     sleep 1
     kill -s TERM $(cat log.pid quiet.pid)
 } &
@@ -91,6 +98,7 @@ any d.pfm mix $seen $tent --roughness 0.2,0.5
 
 wait
 check "bake prints a line before ten seconds" none early.txt
+check "bake prints a line after ten seconds" none late.txt
 check "bake has a line every ten seconds" grep -qE '^lambent bake: [a-z ]* [0-9]+ %(, [0-9]+ (s|min) left)?$' log-err.txt
 check "lines of a log end as lines do" lacks "$(printf '\r')" log-err.txt
 check "lines are ten seconds apart" test "$(grep -c '%' log-err.txt)" -eq 1

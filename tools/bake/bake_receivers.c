@@ -714,6 +714,7 @@ static int look_at_all(divider *d)
 {
     sort(d->now.data, d->now.count, sizeof *d->now.data, by_place);
     for (size_t i = 0; i < d->now.count; ++i) {
+        progress_again();
         if (!look_at(d, i)) {
             return 0;
         }
@@ -852,6 +853,7 @@ int bake_receivers(bake *b, report *r)
     d.light = mean_light(b);
     d.mask = (1u << 20) - 1;
     d.slot = calloc((size_t)d.mask + 1, sizeof *d.slot);
+    progress_tell("receivers", 0.0);
     int ok = d.slot != NULL || report_fail(r, "not enough memory for receivers");
     ok = ok && bake_sight_begin(&d.sight, r) && add_roots(&d);
     while (ok && d.now.count > 0) {

@@ -7,6 +7,7 @@
 
 #include "../../platform/host/pool.h"
 #include "../common/fvec.h"
+#include "../common/progress.h"
 #include "bake_triangle.h"
 
 #define PI 3.14159274f
@@ -246,6 +247,9 @@ static void element_job(void *user, int index, int worker)
     const rows *w = user;
     const uint32_t per = w->b->set.elements / CHUNK, first = (uint32_t)(w->own + index * w->parts) * per;
     const uint64_t all = ~(uint64_t)0 >> (CHUNK - w->count);
+    if (worker == 0) {
+        progress_again();
+    }
     bake_bound(&w->sight[worker].traversal);
     memset(w->sight[worker].own, 0, sizeof w->sight[worker].own); /* the number of tests must not depend on threads */
     for (uint32_t j = first; j < first + per; ++j) {

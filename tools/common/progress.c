@@ -16,7 +16,7 @@ static struct watch {
     int is_on, is_whole, is_quiet, is_log;
     const char *verb;
     char step[40];
-    double share;                    /* reported last */
+    double share, first_share;       /* reported last; first of the step */
     double begun, step_begun, shown; /* s */
 } watch;
 
@@ -42,10 +42,11 @@ void progress_begin_log(int is_quiet, const char *verb)
 
 int progress_is_quiet(void) { return watch.is_quiet; }
 
-/* Early in a short run the remaining time cannot be estimated. */
-static void left_of(char *out, size_t size, double share, double passed)
+/* Early in a short run the remaining time cannot be estimated. `first` is the share when the time began. */
+static void left_of(char *out, size_t size, double share, double first, double passed)
 {
-    const double more = share > (passed > 2.0 ? 1e-6 : 0.02) ? passed / share - passed : -1.0;
+    const double done = share - first;
+    const double more = done > (passed > 2.0 ? 1e-6 : 0.02) ? passed / done * (1.0 - share) : -1.0;
     out[0] = '\0';
     if (more >= 99.5) {
         snprintf(out, size, ", %.0f min left", more / 60.0);
@@ -60,7 +61,7 @@ static void show(const char *name, double share, double begun, double now)
     if (now - watch.begun < SILENT_S || now - watch.shown < (watch.is_log ? LINE_EVERY_S : EVERY_S)) {
         return;
     }
-    left_of(left, sizeof left, share, now - begun);
+    left_of(left, sizeof left, share, watch.first_share, now - begun);
     snprintf(line, sizeof line, "%s: %s %.0f %%%s", command_name(watch.verb), name, 100.0 * share, left);
     watch.shown = now;
     if (watch.is_log) {
@@ -84,9 +85,17 @@ void progress_tell(const char *step, double share)
     if (strncmp(step, watch.step, sizeof watch.step - 1) != 0 || share < watch.share) { /* new, or repeated */
         snprintf(watch.step, sizeof watch.step, "%s", step);
         watch.step_begun = now;
+        watch.first_share = share;
     }
     watch.share = share;
     show(watch.step, share, watch.step_begun, now);
+}
+
+void progress_again(void)
+{
+    if (watch.is_on && watch.step[0] != '\0') {
+        show(watch.step, watch.share, watch.is_whole ? watch.begun : watch.step_begun, host_seconds());
+    }
 }
 
 void progress_whole(const char *part, double share)
@@ -94,6 +103,7 @@ void progress_whole(const char *part, double share)
     if (watch.is_on) {
         watch.is_whole = 1;
         watch.share = share;
+        watch.first_share = 0.0;
         snprintf(watch.step, sizeof watch.step, "%s", part);
         show(part, share, watch.begun, host_seconds());
     }

@@ -13,8 +13,10 @@ void progress_begin_log(int is_quiet, const char *verb);
 int progress_is_quiet(void);
 
 /* progress_tell: reports that `share` of `step` is done, 0 .. 1. Call it from the thread that began, as often as you
- * like. The line has the step, the percentage and the remaining seconds at the rate so far. */
+ * like. The line has the step, the percentage and the remaining seconds at the rate so far. progress_again: shows the
+ * line again if it is time to, for long parts of a step. */
 void progress_tell(const char *step, double share);
+void progress_again(void);
 
 /* progress_whole: reports the share of the whole work, with `part` as the name; progress of parts is then ignored. */
 void progress_whole(const char *part, double share);
