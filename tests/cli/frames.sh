@@ -109,6 +109,14 @@ for part in color.pfm depth.pfm json; do cp "frames/f0.$part" "$long/$two.$part"
 printf 'two words/f\000%s\000' "$two" >"$long/zero.txt"
 status 0 mix --frames "$long/zero.txt" $tent -q -o frames/zero_%02d.pfm
 check "a list with bytes of 0" cmp frames/o_00.pfm frames/zero_01.pfm
+# Photos may be PAM, as README's program writes them; the photo is 24 x 24 pixels of code 188.
+mkdir -p frames/pam
+{ printf 'P7\nWIDTH 24\nHEIGHT 24\nDEPTH 4\nMAXVAL 255\nTUPLTYPE RGB_ALPHA\nENDHDR\n'; repeated 576 '\274\274\274\377'; } >frames/pam/f.color.pam
+cp frames/f0.json frames/pam/f.json && cp wall.pfm frames/pam/f.depth.pfm
+echo f >frames/pam/list.txt
+status 0 mix --frame frames/pam/f $tent -q -o frames/pam_one.pfm
+status 0 mix --frames frames/pam/list.txt $tent -q -o frames/pam_%02d.pfm
+check "a sequence of PAM photos" cmp frames/pam_one.pfm frames/pam_00.pfm
 printf '#x\000two words/f\000' >"$long/hash.txt"
 status 0 mix --frames "$long/hash.txt" $tent -q -o frames/hash_%02d.pfm
 check "has no comments" cmp frames/o_00.pfm frames/hash_01.pfm

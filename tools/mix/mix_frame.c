@@ -236,7 +236,7 @@ static int set_camera(mix_frame *f, const mix_source *s, report *r)
 static int read_all(mix_frame *f, mix_source s, report *r)
 {
     char photo[PATH_CAP], depth[PATH_CAP];
-    static const char *const colours[] = {".color.png", ".color.jpg", ".color.pfm", NULL};
+    static const char *const colours[] = {".color.png", ".color.jpg", ".color.pam", ".color.pfm", NULL};
     static const char *const depths[] = {".depth.png", ".depth.pfm", NULL};
     if (s.frame != NULL) {
         if (!read_camera(f, &s, r) || (s.photo == NULL && !find_file(photo, s.frame, colours, r)) ||

@@ -7,7 +7,7 @@
 
 /* The files to read. NULL or 0: not given. `frame` supplies the parts that the other members leave open. */
 typedef struct mix_source {
-    const char *frame; /* PREFIX of .color.(png|jpg|pfm), .depth.(png|pfm) and .json */
+    const char *frame; /* PREFIX of .color.(png|jpg|pam|pfm), .depth.(png|pfm) and .json */
     const char *photo, *depth;
     const char *folder;  /* the list's folder, for file_is_below; NULL: names are from the command line */
     float depth_scale; /* metres per unit; 0: 0.001 for PNG, 1 for PFM, or the JSON's value */

@@ -241,7 +241,7 @@ static int is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 /* Returns 1 if there is a frame with this prefix. */
 static int is_frame(const char *prefix, report *r)
 {
-    static const char *const endings[] = {".json", ".color.png", ".color.jpg", ".color.pfm"};
+    static const char *const endings[] = {".json", ".color.png", ".color.jpg", ".color.pam", ".color.pfm"};
     int found = 0;
     for (size_t i = 0; !found && i < sizeof endings / sizeof *endings; ++i) {
         report none = {""};

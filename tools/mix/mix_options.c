@@ -60,7 +60,7 @@ static const char *const shows[] = {"final", "delta", "planes", "voxels", "env",
 static const option_row photo_rows[] = {
     {.kind = OPTION_TITLE, .help = HELP("photo")},
     {.name = "--frame", .value = "PREFIX", .kind = OPTION_TEXT, AT(source.frame),
-     .help = HELP("PREFIX.color.(png|jpg|pfm), PREFIX.depth.(png|pfm) and PREFIX.json: fx fy cx cy, depth_unit_mm, "
+     .help = HELP("PREFIX.color.(png|jpg|pam|pfm), PREFIX.depth.(png|pfm) and PREFIX.json: fx fy cx cy, depth_unit_mm, "
              "and if known camera_to_world (4 x 4, row by row)")},
 #if !defined(OPTIONS_WITHOUT_HELP) /* the web page mixes one photo */
     {.name = "--frames", .value = "DIR|LIST", .kind = OPTION_TEXT, AT(frames),

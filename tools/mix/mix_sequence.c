@@ -195,7 +195,7 @@ static void draw_next(sequence *s)
  * written. */
 static int keep_inputs(const mix_list *list, report *r)
 {
-    static const char *const endings[] = {".json",      ".color.png", ".color.jpg",
+    static const char *const endings[] = {".json",      ".color.png", ".color.jpg", ".color.pam",
                                           ".color.pfm", ".depth.png", ".depth.pfm"};
     int ok = 1;
     for (int32_t i = 0; ok && i < list->count; ++i) {
