@@ -21,7 +21,8 @@ for log in "$@"; do
         awk -v each="${EACH:-1}" 'NR == FNR { is[$1] = $2; next }
             ($1 in is ? is[$1] != $2 : each == 1) { print; exit 1 }' "$first.lines" "$log.lines" >"$log.other"
         check "$log against $first: $(cat "$log.other")" test ! -s "$log.other"
-        few=$(($(grep -c . "$first.lines") / ${EACH:-1}))
+        # The tiny configuration leaves out an eighth of the cases.
+        few=$(($(grep -c . "$first.lines") * 5 / 6 / ${EACH:-1}))
         check "$log has as many lines" test "$(grep -c . "$log.lines")" -ge "$few"
     fi
 done
