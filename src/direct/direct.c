@@ -3,7 +3,9 @@
 
 #include "../base/light_kind.h"
 #include "../base/vec.h"
+#include "../base/whole.h"
 #include "../lane/kernels.h"
+#include "light_tile.h"
 #include "shadow.h"
 
 static lmb_direct_job make_job(const lmb_light *light)
@@ -23,18 +25,24 @@ static lmb_direct_job make_job(const lmb_light *light)
     return job;
 }
 
-static int pixel_is_lit(lmb_shadow_query *query, const lmb_tile *tile, int k)
+/* doubtful: NULL, or gets bit k if the answer is LMB_LIT_IN_DOUBT. */
+ALWAYS_INLINE int pixel_is_lit(lmb_shadow_query *query, uint64_t *doubtful, const lmb_tile *tile, int k)
 {
     lmb_receiver r;
     r.position = vec3(tile->position[0][k], tile->position[1][k], tile->position[2][k]);
     r.face = vec3(tile->face[0][k], tile->face[1][k], tile->face[2][k]);
     r.id = tile->id[k];
-    return lmb_is_lit(query, &r);
+    const int lit = lmb_is_lit(query, &r);
+    if (doubtful != NULL && lit == LMB_LIT_IN_DOUBT) {
+        *doubtful |= (uint64_t)1 << k;
+    }
+    return lit;
 }
 
-lmb_status lmb_direct_tile(lmb_irradiance *inout, const lmb_kernels *kernels, const lmb_tile *tile,
-                           const lmb_view *view, const lmb_scene *scene, const lmb_light *light,
-                           const lmb_shadow_map *map)
+/* doubtful: NULL, or gets the lit pixels whose answer is LMB_LIT_IN_DOUBT. */
+ALWAYS_INLINE lmb_status add_direct(lmb_irradiance *inout, uint64_t *doubtful, const lmb_kernels *kernels,
+                                    const lmb_tile *tile, const lmb_view *view, const lmb_scene *scene,
+                                    const lmb_light *light, const lmb_shadow_map *map)
 {
     lmb_shadow_query query;
     lmb_irradiance one;
@@ -46,7 +54,7 @@ lmb_status lmb_direct_tile(lmb_irradiance *inout, const lmb_kernels *kernels, co
     kernels->direct(&one, tile, &job);
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         int dark = tile->id[k] == 0 || (one.rgb[0][k] == 0.0f && one.rgb[1][k] == 0.0f && one.rgb[2][k] == 0.0f);
-        if (!dark && (map == NULL || pixel_is_lit(&query, tile, k))) {
+        if (!dark && (map == NULL || pixel_is_lit(&query, doubtful, tile, k))) {
             for (int c = 0; c < 3; ++c) {
                 inout->rgb[c][k] += one.rgb[c][k];
             }
@@ -54,3 +62,21 @@ lmb_status lmb_direct_tile(lmb_irradiance *inout, const lmb_kernels *kernels, co
     }
     return LMB_OK;
 }
+
+lmb_status lmb_direct_tile(lmb_irradiance *inout, const lmb_kernels *kernels, const lmb_tile *tile,
+                           const lmb_view *view, const lmb_scene *scene, const lmb_light *light,
+                           const lmb_shadow_map *map)
+{
+    return add_direct(inout, NULL, kernels, tile, view, scene, light, map);
+}
+
+#if LMB_FACETS
+
+lmb_status lmb_direct_doubtful(lmb_irradiance *inout, uint64_t *doubtful, const light_tile *to, const lmb_light *light,
+                               const lmb_shadow_map *map)
+{
+    *doubtful = 0;
+    return add_direct(inout, doubtful, to->kernels, to->tile, to->view, to->scene, light, map);
+}
+
+#endif

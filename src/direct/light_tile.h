@@ -20,4 +20,13 @@ typedef struct light_tile {
 lmb_status lmb_light_tile_add(lmb_irradiance *sum, lmb_glossy *glossy, lmb_irradiance *one, const light_tile *to,
                               uint32_t i, const lmb_shadow_map *map);
 
+#if LMB_FACETS
+
+/* lmb_direct_tile that also sets `doubtful`: lit pixels around which the map shows only other triangles, as in a corner
+ * smaller than a texel. */
+lmb_status lmb_direct_doubtful(lmb_irradiance *inout, uint64_t *doubtful, const light_tile *to, const lmb_light *light,
+                               const lmb_shadow_map *map);
+
+#endif
+
 #endif

@@ -204,6 +204,9 @@ int lmb_is_lit(lmb_shadow_query *query, const lmb_receiver *r)
     lit_place at;
     int over = 0;
     uint32_t seen[4];
+#if LMB_FACETS
+    int own = 0;
+#endif
     if (!find_place(&at, query->map, query->light, r->position) || four_ids(seen, query, &at, r->id)) {
         return 1;
     }
@@ -215,6 +218,9 @@ int lmb_is_lit(lmb_shadow_query *query, const lmb_receiver *r)
         }
         if (seen[q] == r->id) {
             over = 1;
+#if LMB_FACETS
+            own = 1;
+#endif
         } else if (seen[q] != 0 && !known) {
             int answer = ask_triangle(query, seen[q], r, &at, noise);
             if (answer == TEXEL_SHADOWS) {
@@ -223,5 +229,10 @@ int lmb_is_lit(lmb_shadow_query *query, const lmb_receiver *r)
             over |= answer == TEXEL_OVER;
         }
     }
+#if LMB_FACETS
+    if (!own) {
+        return over || lit_by_depth(query, &at, r, noise) ? LMB_LIT_IN_DOUBT : 0;
+    }
+#endif
     return over || lit_by_depth(query, &at, r, noise);
 }

