@@ -63,7 +63,7 @@ static uint64_t KERNEL(resolve_slots)(lmb_resolve_batch *out, const uint32_t id[
 
 /* --- planes of eight triangles ------------------------------------------------------------------------------------ */
 
-enum { PLAIN_SET = 8 };
+enum { PLAIN_SET = LMB_SLOTS < 8 ? LMB_SLOTS : 8 };
 
 typedef struct plain_planes {
     float e1[3][PLAIN_SET], e2[3][PLAIN_SET], n[3][PLAIN_SET];
