@@ -65,7 +65,8 @@ typedef struct element_maker {
     int full;
 } element_maker;
 
-#define MAX_COARSENESS 65536.0f /* lengths near the largest float would be infinite */
+/* Cells then have at most 10 sizes, and six sides of each fit in the fewest elements, 64. */
+#define MAX_COARSENESS 511.0f
 
 /* Side of a piece's elements over that in the core: 1 in the core, 2 at the core's size from it. A ground or a terrain
  * around an object would take nearly all elements otherwise. */

@@ -149,6 +149,28 @@ static void test_core(void)
     }
 }
 
+/* Triangles of six sides at 16 doublings of the distance from a small core, and the fewest elements: the side stays
+ * finite, because cells that grow with the distance have few sizes. */
+static void test_far(void)
+{
+    lmb_elements e;
+    world_begin(0.5f, 0.5f, 0.5f);
+    for (int i = 0; i < 16; ++i) {
+        world_box(vec3(i == 0 ? 0.0f : 0.75f + ldexpf(0.65f, i), 0, 0), 0.2f);
+    }
+    CHECK(world_end() == LMB_OK);
+    world.scene.core.low = vec3(-0.5f, -0.5f, -0.5f);
+    world.scene.core.high = vec3(0.5f, 0.5f, 0.5f);
+    world.scene.core.wide_low = world.scene.bounds_min;
+    world.scene.core.wide_high = world.scene.bounds_max;
+    world.scene.core.faces = 2;
+    memset(&e, 0, sizeof e);
+    CHECK(lmb_elements_init(&e, 64, element_memory, sizeof element_memory) == LMB_OK);
+    CHECK(lmb_elements_build(&e, &world.scene, NULL) == LMB_OK);
+    CHECK_MSG(e.side < 1e6f && e.count > 16, "%u elements, side %g", (unsigned)e.count, (double)e.side);
+    memset(&world.scene.core, 0, sizeof world.scene.core);
+}
+
 static void test_area(void)
 {
     static const uint32_t counts[] = {64, 256, ELEMENTS};
@@ -457,6 +479,7 @@ void test_elements(void)
     test_memory();
     test_area();
     test_core();
+    test_far();
     test_sliver();
     test_dropped();
     test_sides();
