@@ -49,8 +49,9 @@ typedef struct lmb_resolve_batch {
     uint32_t colour[3][LMB_SLOTS];     /* in: four codes 0 .. 255 per corner, red in the low bits */
     float uv[3][2][LMB_SLOTS];         /* [corner][u, v] */
     float plane[3][LMB_SLOTS];         /* out: unit normal */
-    float face[3][LMB_SLOTS];          /* out: `plane` turned to the viewer. If albedo_only, wide kernels put the
-                                          plane's height above the eye into face[0] for perspective views */
+    float face[3][LMB_SLOTS];          /* out: `plane` turned to the viewer. If albedo_only, kernels of several
+                                          lanes put the plane's height above the eye into face[0] for
+                                          perspective views */
     float w_min[LMB_SLOTS], w_max[LMB_SLOTS]; /* out: range of the corners along the view axis */
     float albedo[3][3][LMB_SLOTS];     /* in: colours in LMB_COLOUR_RGBA16, decoded. Out: reflectance,
                                           [corner][channel] */
