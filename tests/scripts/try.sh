@@ -88,7 +88,8 @@ if [ -z "$found" ]; then
         exit 2
     fi
     near=$(similar | tr '\n' ' ')
-    echo "make try: there is no test $T; similar names: ${near:-none}" >&2
+    [ -z "$near" ] && near="T=src/tree lists the tests of a folder" || near="similar names: $near"
+    echo "make try: there is no test $T; $near" >&2
     exit 2
 fi
 

@@ -150,7 +150,7 @@ const option_row render_world_rows[] = {
     {.name = "--ground", .kind = OPTION_WORD, AT(no_ground), .words = grounds, .values = ground_values,
      .help = HELP("auto: put a grey ground below a scene without lights and without a floor (default), unless "
                   "--background is a colour or transparent; with an environment map it is a round disc four times "
-                  "as wide as the scene")},
+                  "as wide as the scene. With --transfer there is none, because a bake has no ground")},
     {.name = "--background", .value = "RRGGBB|world|transparent", .kind = OPTION_OWN, AT(background),
      .parse = parse_background, .expects = "world, transparent, or a colour such as ffffff",
      .help = HELP("shown where there is no surface: a colour, the world (default; black if there is none), or "
