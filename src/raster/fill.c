@@ -71,13 +71,15 @@ static uint32_t rank_of(uint32_t own, uint32_t x, uint32_t y)
 /* Least alpha at which pixel (x, y) of the tile shows a surface that blends: 1/512 .. 511/512.
  *
  * The samples of a pixel lie in different columns, one in each of as many strips as there are samples, and so do their
- * thresholds. With several samples, each pixel also has its own order of the quarters. */
+ * thresholds. With several samples, each pixel also has its own start and its own step through the strips, because two
+ * surfaces that both show in a run of strips would overlap by any amount. */
 static float threshold(const masked_surface *s, const lmb_view *v, int32_t x, int32_t y)
 {
     const uint32_t own = s->id * 2654435761u, px = (uint32_t)(s->x + x), py = (uint32_t)(s->y + y);
-    const uint32_t quarter = (v->sample_x | v->sample_y) != 0 ? hash_square(own + 3, px, py) >> 30 : 0;
+    const uint32_t way = (v->sample_x | v->sample_y) != 0 ? hash_square(own + 3, px, py) : 0;
+    const uint32_t quarter = way >> 30, step = way >> 26 & 14u, column = (uint32_t)(v->sample_x + 128); /* step: - 1 */
     const uint32_t part = hash_square(own + 4, px >> 3, py >> 3) >> 30; /* of a rank; differs between squares */
-    const uint32_t at = (uint32_t)(v->sample_x + 128) + 4 * rank_of(own, px, py) + part + 64 * quarter;
+    const uint32_t at = column + (column >> 4) * step * 16 + 4 * rank_of(own, px, py) + part + 64 * quarter;
     return ((float)(at & 255u) + 0.5f) * (1.0f / 256.0f);
 }
 #endif

@@ -75,34 +75,55 @@ static void check_layers(float alpha, int32_t samples)
     CHECK_MSG(fabs(left - open * open * open) <= 0.02, "%d samples of %g: %g is left", (int)samples, (double)alpha, left);
 }
 
-/* At alpha 1/2, two of a pixel's four samples show the surface. */
-static void check_strips(void)
+/* Counts the samples of each pixel that show one of `ids` ids from `first` on. */
+static void count_shown(uint8_t shows[SIDE * SIDE], int32_t samples, uint32_t first, uint32_t ids)
 {
-    static uint8_t shows[SIDE * SIDE];
     lmb_view v;
     lmb_target t;
-    int wrong = 0;
     memset(&t, 0, sizeof t);
-    memset(shows, 0, sizeof shows);
-    walls(2, 0.5f, 1.0f);
+    memset(shows, 0, SIDE * SIDE);
     CHECK(lmb_view_look_at(&v, vec3(0, 0, 5), vec3(0, 0, 0), Y, 0.6f, SIDE, SIDE) == LMB_OK);
     v.near_m = 0.1f;
-    for (int32_t i = 0; i < 4; ++i) {
+    for (int32_t i = 0; i < samples; ++i) {
         lmb_view sample = v;
-        lmb_view_sample(&sample, 4, i);
+        lmb_view_sample(&sample, samples, i);
         lmb_surface_init(&t.depth, LMB_DEPTH32F, SIDE, SIDE, blend.depth, sizeof blend.depth);
         lmb_surface_init(&t.id, LMB_ID32, SIDE, SIDE, blend.id, sizeof blend.id);
         lmb_surface_clear(&t.depth);
         lmb_surface_clear(&t.id);
         CHECK(lmb_draw(&t, lmb_kernels_at(0), &sample, &world.scene, 1, 8, LMB_BLEND, NULL) == LMB_OK);
         for (int k = 0; k < SIDE * SIDE; ++k) {
-            shows[k] = (uint8_t)(shows[k] + (blend.id[k] == 1 || blend.id[k] == 2));
+            shows[k] = (uint8_t)(shows[k] + (blend.id[k] - first < ids));
         }
     }
+}
+
+/* At alpha 1/2, two of a pixel's four samples show the surface. */
+static void check_strips(void)
+{
+    static uint8_t shows[SIDE * SIDE];
+    int wrong = 0;
+    walls(2, 0.5f, 1.0f);
+    count_shown(shows, 4, 1, 2);
     for (int k = 0; k < SIDE * SIDE; ++k) {
         wrong += shows[k] != 2;
     }
     CHECK_MSG(wrong <= SIDE, "%d", wrong); /* except pixels in which two triangles meet */
+}
+
+/* Two walls of alpha 1/2 leave a quarter of a pixel's samples, with little grain. */
+static void check_grain(void)
+{
+    static uint8_t shows[SIDE * SIDE];
+    double sum2 = 0.0;
+    walls(2, 0.5f, 0.5f);
+    count_shown(shows, 16, 0, 1);
+    for (int k = 0; k < SIDE * SIDE; ++k) {
+        const double off = shows[k] / 16.0 - 0.25;
+        sum2 += off * off;
+    }
+    const double grain = sqrt(sum2 / (SIDE * SIDE));
+    CHECK_MSG(grain < 0.1, "%g", grain);
 }
 
 /* A wall far away: the texture's period is a pixel, so each pixel shows the mean of alpha, a quarter. */
@@ -153,6 +174,7 @@ void test_blend(void)
         check_layers(0.6f, samples);
     }
     check_strips();
+    check_grain();
     check_far(64, 64);
     check_far(96, 96);
     check_far(33, 7);
