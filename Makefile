@@ -387,7 +387,7 @@ MANY       := PREFIXES=20 MUTATIONS=200
 LONG       ?= LMB_LONG=1
 ALL_CHECKS := $(filter-out truth-small $(SKIP_CHECKS),$(SLOW_CHECKS) $(QUICK_CHECKS))
 check-all: ## the quick and the slow checks; links every program and the page (SKIP_CHECKS="cli hard" leaves some out)
-	+@$(MAKE) check CHECKS="$(ALL_CHECKS)" $(MANY) $(LONG)
+	+@$(MAKE) check CHECKS="$(ALL_CHECKS)" $(MANY) $(LONG) JOBS=2
 nightly: ## all jobs of .ci/jobs with all their parts; installs missing packages; prints the total time
 	@bash .ci/run nightly
 

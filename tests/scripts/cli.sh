@@ -31,12 +31,17 @@ worker() {
         fi
     done
 }
+# A command in the background ignores SIGINT, and so do its children. `progress` sends it, so it runs here, and first.
+first= behind=
+for name in "$@"; do
+    [ "$name" = progress ] && first=progress || behind="$behind $name"
+done
 workers=1
 while [ "$workers" -lt "${JOBS:-1}" ]; do
-    worker "$@" &
+    worker $behind &
     workers=$((workers + 1))
 done
-worker "$@"
+worker $first $behind
 wait
 
 logs=$LOGS
