@@ -370,8 +370,8 @@ FORCE:
 # the second core.
 QUICK_CHECKS := unit lanes golden analytic truth-small hostile layers words headers contracts slivers tables symbols \
                 replay stack
-SLOW_CHECKS  := cli tiny truth hard own one-command links page-links golden-orders slow guard package audit examples-tiny \
-                statue live hostile-cli layout direct-only examples no-float readme tool-setup
+SLOW_CHECKS  := cli tiny truth statue live examples-tiny hard own one-command links page-links golden-orders slow guard \
+                package audit hostile-cli layout direct-only examples no-float readme tool-setup
 CHECKS ?= $(QUICK_CHECKS)
 NEEDS  :=
 RUN_PART = LOGS=$(B)/check NEEDS="$(NEEDS)" sh tests/scripts/part.sh
