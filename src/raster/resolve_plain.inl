@@ -64,6 +64,7 @@ static uint64_t KERNEL(resolve_slots)(lmb_resolve_batch *out, const uint32_t id[
 /* --- planes of eight triangles ------------------------------------------------------------------------------------ */
 
 enum { PLAIN_SET = LMB_SLOTS < 8 ? LMB_SLOTS : 8 };
+typedef char plain_sets_fit[LMB_SLOTS % PLAIN_SET == 0 ? 1 : -1]; /* the last set is whole */
 
 typedef struct plain_planes {
     float e1[3][PLAIN_SET], e2[3][PLAIN_SET], n[3][PLAIN_SET];

@@ -11,13 +11,14 @@ static struct {
     uint32_t depth[SIDE * SIDE], id[SIDE * SIDE];
 } blend;
 
-/* Counts the samples that show each triangle's id, over all pixels and `samples`. */
-static void count_ids(uint32_t counts[8], int32_t samples, uint32_t flags)
+static uint8_t shown[SIDE * SIDE][8]; /* by pixel and id of a triangle: samples that show it */
+
+static void draw_samples(int32_t samples, uint32_t flags)
 {
     lmb_view v;
     lmb_target t;
     memset(&t, 0, sizeof t);
-    memset(counts, 0, 8 * sizeof *counts);
+    memset(shown, 0, sizeof shown);
     CHECK(lmb_view_look_at(&v, vec3(0, 0, 5), vec3(0, 0, 0), Y, 0.6f, SIDE, SIDE) == LMB_OK);
     v.near_m = 0.1f;
     for (int32_t i = 0; i < samples; ++i) {
@@ -29,7 +30,19 @@ static void count_ids(uint32_t counts[8], int32_t samples, uint32_t flags)
         lmb_surface_clear(&t.id);
         CHECK(lmb_draw(&t, lmb_kernels_at(0), &sample, &world.scene, 1, 8, flags, NULL) == LMB_OK);
         for (int k = 0; k < SIDE * SIDE; ++k) {
-            ++counts[blend.id[k] & 7];
+            ++shown[k][blend.id[k] & 7];
+        }
+    }
+}
+
+/* Counts the samples that show each triangle's id, over all pixels. */
+static void count_ids(uint32_t counts[8], int32_t samples, uint32_t flags)
+{
+    draw_samples(samples, flags);
+    for (int id = 0; id < 8; ++id) {
+        counts[id] = 0;
+        for (int k = 0; k < SIDE * SIDE; ++k) {
+            counts[id] += shown[k][id];
         }
     }
 }
@@ -75,38 +88,14 @@ static void check_layers(float alpha, int32_t samples)
     CHECK_MSG(fabs(left - open * open * open) <= 0.02, "%d samples of %g: %g is left", (int)samples, (double)alpha, left);
 }
 
-/* Counts the samples of each pixel that show one of `ids` ids from `first` on. */
-static void count_shown(uint8_t shows[SIDE * SIDE], int32_t samples, uint32_t first, uint32_t ids)
-{
-    lmb_view v;
-    lmb_target t;
-    memset(&t, 0, sizeof t);
-    memset(shows, 0, SIDE * SIDE);
-    CHECK(lmb_view_look_at(&v, vec3(0, 0, 5), vec3(0, 0, 0), Y, 0.6f, SIDE, SIDE) == LMB_OK);
-    v.near_m = 0.1f;
-    for (int32_t i = 0; i < samples; ++i) {
-        lmb_view sample = v;
-        lmb_view_sample(&sample, samples, i);
-        lmb_surface_init(&t.depth, LMB_DEPTH32F, SIDE, SIDE, blend.depth, sizeof blend.depth);
-        lmb_surface_init(&t.id, LMB_ID32, SIDE, SIDE, blend.id, sizeof blend.id);
-        lmb_surface_clear(&t.depth);
-        lmb_surface_clear(&t.id);
-        CHECK(lmb_draw(&t, lmb_kernels_at(0), &sample, &world.scene, 1, 8, LMB_BLEND, NULL) == LMB_OK);
-        for (int k = 0; k < SIDE * SIDE; ++k) {
-            shows[k] = (uint8_t)(shows[k] + (blend.id[k] - first < ids));
-        }
-    }
-}
-
 /* At alpha 1/2, two of a pixel's four samples show the surface. */
 static void check_strips(void)
 {
-    static uint8_t shows[SIDE * SIDE];
     int wrong = 0;
     walls(2, 0.5f, 1.0f);
-    count_shown(shows, 4, 1, 2);
+    draw_samples(4, LMB_BLEND);
     for (int k = 0; k < SIDE * SIDE; ++k) {
-        wrong += shows[k] != 2;
+        wrong += shown[k][1] + shown[k][2] != 2;
     }
     CHECK_MSG(wrong <= SIDE, "%d", wrong); /* except pixels in which two triangles meet */
 }
@@ -114,12 +103,11 @@ static void check_strips(void)
 /* Two walls of alpha 1/2 leave a quarter of a pixel's samples, with little grain. */
 static void check_grain(void)
 {
-    static uint8_t shows[SIDE * SIDE];
     double sum2 = 0.0;
     walls(2, 0.5f, 0.5f);
-    count_shown(shows, 16, 0, 1);
+    draw_samples(16, LMB_BLEND);
     for (int k = 0; k < SIDE * SIDE; ++k) {
-        const double off = shows[k] / 16.0 - 0.25;
+        const double off = shown[k][0] / 16.0 - 0.25;
         sum2 += off * off;
     }
     const double grain = sqrt(sum2 / (SIDE * SIDE));
@@ -160,6 +148,23 @@ static void check_far(int32_t width, int32_t height)
     }
 }
 
+/* A texture with the same alpha everywhere, under the cutoff. */
+static void check_even(void)
+{
+    static uint8_t texels[4 * 8 * 8];
+    uint32_t n[8];
+    walls(2, 1.0f, 1.0f);
+    memset(texels, 64, sizeof texels);
+    world.texture.texels = texels;
+    world.texture.width = world.texture.height = 8;
+    world.texture.levels = 1;
+    world.scene.texture_count = 1;
+    world.material[0].texture = 0;
+    count_ids(n, 4, LMB_BLEND);
+    const double share = (n[1] + n[2]) / (4.0 * SIDE * SIDE);
+    CHECK_MSG(fabs(share - 64.0 / 255.0) < 0.02, "%g", share);
+}
+
 void test_blend(void)
 {
     static const float alphas[] = {0.0f, 0.1f, 0.3f, 0.5f, 0.77f, 1.0f};
@@ -175,6 +180,7 @@ void test_blend(void)
     }
     check_strips();
     check_grain();
+    check_even();
     check_far(64, 64);
     check_far(96, 96);
     check_far(33, 7);
