@@ -654,7 +654,7 @@ static void places_by_lanes(void)
                 wrong += (found >> i & 1u) != (uint32_t)is || at.x != spots.place[0][i] || at.y != spots.place[1][i] ||
                          at.z != spots.place[2][i] ||
                          spots.normal[1][i] != (own ? plane.normal.y : before.normal[1][i]);
-                moved += is;
+                moved += is && k == COUNT(backends) - 1; /* plain C, which each build has */
             }
         }
     }
@@ -702,11 +702,11 @@ static void boxes_by_lanes(void)
                 should &= asked;
                 const uint64_t is = (uint64_t)out[1][i] << 32 | out[0][i];
                 wrong += is != should || (any >> i & 1u) != (uint32_t)(should != 0);
-                met += should != 0;
+                met += should != 0 && k == COUNT(backends) - 1;
             }
         }
     }
-    CHECK_MSG(wrong == 0 && met > 1000, "%d of %d differ", wrong, met);
+    CHECK_MSG(wrong == 0 && met > 200, "%d of %d differ", wrong, met);
 }
 
 /* --- light from infinity ------------------------------------------------------------------------------------------ */
