@@ -97,6 +97,8 @@ static void cross_masked(const lmb_setup *s, int32_t x, int32_t y)
     view.sample_x = any_between(-128, 127), view.sample_y = any_between(-128, 127);
     surface.blends = any_between(0, 1);
     surface.id = (uint32_t)any_between(1, 1 << 30);
+    surface.batches = 0, surface.texture = NULL; /* kernels for whole tiles sum the same edges */
+    surface.part = any_between(0, 1) ? LMB_COVERS_ALL : COVERS_SOME;
     surface.x = any_between(0, LMB_MAX_FRAME), surface.y = any_between(0, LMB_MAX_FRAME);
     context.view = &view;
     const lmb_fill_tile tile = any_tile();
