@@ -44,7 +44,7 @@ $(eval $(call page_objects,main,,$$(call page_opt,$$<)))
 $(eval $(call page_objects,scalar,,$(or $(PAGE_OPT),-Oz)))
 # The lanes of plain C determine the layout of structs shared by modules: one lane, as without simd128.
 $(eval $(call page_objects,simd,-msimd128 -DLMB_PLAIN_LANES=1,$(or $(PAGE_OPT),-O2 -fno-unroll-loops)))
--include $(patsubst %.c,$(PAGE_WORK)/main/%.d,$(PAGE_SRC)) \
+-include $(patsubst %.c,$(PAGE_WORK)/main/%.d,src.c $(PAGE_SRC)) \
          $(wildcard $(PAGE_WORK)/scalar/*/*/*.d $(PAGE_WORK)/simd/*/*/*.d)
 
 export PAGE_LINE := $(PAGE_FLAGS) $(PAGE_FAST) $(PAGE_ONCE)
@@ -52,7 +52,14 @@ $(PAGE_WORK)/flags: FORCE
 	@mkdir -p $(@D)
 	@printf '%s\n' "$$PAGE_LINE" | cmp -s - $@ || printf '%s\n' "$$PAGE_LINE" > $@
 
-$(PAGE_WORK)/lambent.wasm: $(PAGE_SRC:%.c=$(PAGE_WORK)/main/%.o)
+# At -O0 the library is one unit: starting clang 130 times takes longer than compiling.
+PAGE_UNIT := $(if $(PAGE_OPT),$(filter src/%,$(PAGE_SRC)))
+$(PAGE_WORK)/main/src.o: $(PAGE_UNIT) $(PAGE_WORK)/flags platform/web/page.mk
+	@mkdir -p $(@D)
+	@printf '#include "%s"\n' $(PAGE_UNIT) | clang $(PAGE_FLAGS) $(PAGE_OPT) -MT $@ -MF $(@:.o=.d) -x c -c - -o $@
+
+PAGE_OBJ := $(patsubst %.c,$(PAGE_WORK)/main/%.o,$(if $(PAGE_UNIT),src.c) $(filter-out $(PAGE_UNIT),$(PAGE_SRC)))
+$(PAGE_WORK)/lambent.wasm: $(PAGE_OBJ)
 	@echo "LD $@"
 	@$(PAGE_LINK) $(PAGE_MAIN) -o $@ $^ $(PAGE_LIBC)/libm.a $(PAGE_LIBC)/libc.a $(PAGE_RT)
 $(PAGE_WORK)/kernels_scalar.wasm: $(patsubst %.c,$(PAGE_WORK)/scalar/%.o,src/isa/isa_scalar.c $(PAGE_KERNELS))
