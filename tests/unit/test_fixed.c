@@ -494,7 +494,8 @@ static void test_refused(void)
 {
     const uint32_t magic = 0x4c4d4600u | LMB_FIXED_VERSION;
     const size_t rows = LMB_FIXED_HEADER_WORDS + 3 * SMALL_FIXED_RECEIVERS + 2 * SMALL_FIXED_TRIANGLES,
-                 links = rows + 2 * SMALL_FIXED_RECEIVERS;
+                 links = rows + 2 * SMALL_FIXED_RECEIVERS,
+                 last_element = LMB_FIXED_HEADER_WORDS + 3 * (SMALL_FIXED_RECEIVERS - 1);
     lmb_fixed s;
     small_fixed(words);
     CHECK(open_with(0, magic) == LMB_OK);
@@ -512,6 +513,7 @@ static void test_refused(void)
     CHECK(open_with(13, 8192) == LMB_ERR_FORMAT && open_with(17, SMALL_FIXED_TRIANGLES + 1) == LMB_ERR_FORMAT);
     CHECK(open_with(20, 0x2000) == LMB_ERR_FORMAT);                 /* a position beyond 8191 */
     CHECK(open_with(21, 0x7f7f0000u) == LMB_ERR_FORMAT);            /* a normal that is too long */
+    CHECK(open_with(last_element, 0x2000) == LMB_ERR_FORMAT && open_with(last_element + 1, 0x7f7f0000u) == LMB_ERR_FORMAT);
     CHECK(open_with(rows - 1, SMALL_FIXED_VERTICES) == LMB_ERR_FORMAT);
     CHECK(open_with(rows - 2, SMALL_FIXED_VERTICES << 16) == LMB_ERR_FORMAT);
     CHECK(open_with(rows, 0x06ffffffu) == LMB_ERR_FORMAT);          /* links out of range */
