@@ -5,9 +5,10 @@
 # reports wrong or negative ones.
 #
 # A line counts as run if any copy of it ran (kernels are compiled for each backend; backends that this processor lacks
-# are left out). Each branch counts twice, once for each way. Lines that did not run are in FOLDER/uncovered. Limits for
-# src/: 98 % of lines, 92 % of branches, and a reason in uncovered.txt for each line that did not run. For tools/: 85 %
-# of lines. `make faults` provokes failed allocations and writes, but does not count here.
+# are left out). gcov reads one object at a time: with several it may print that a line did not run although a copy
+# did. Each branch counts twice, once for each way. Lines that did not run are in FOLDER/uncovered. Limits for src/:
+# 98 % of lines, 92 % of branches, and a reason in uncovered.txt for each line that did not run. For tools/: 85 % of
+# lines. `make faults` provokes failed allocations and writes, but does not count here.
 folder=$1
 tree=$2
 b=$folder/default
@@ -42,7 +43,7 @@ esac >"$folder/run.log" 2>&1
 find "$b/obj/$tree" -name '*.gcda' | grep -v -e neon -e simd128 | sed 's/gcda$/o/' >"$folder/objects"
 rm -f "$folder/uncovered"
 reasons=tests/scripts/uncovered.txt
-xargs gcov -b -c -t <"$folder/objects" 2>/dev/null | awk -v out="$folder/uncovered" -v reasons="$reasons" \
+xargs -n 1 gcov -b -c -t <"$folder/objects" 2>/dev/null | awk -v out="$folder/uncovered" -v reasons="$reasons" \
     -v tree="$tree" -v least_lines=$lines -v least_branches=$branches '
     # FILE | part of the line | reason; each for one line.
     function read_reasons(    row, part) {
