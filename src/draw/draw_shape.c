@@ -434,7 +434,7 @@ static void shape_walk(shape_run *run, const shape_way *w, int32_t first, int32_
     }
 }
 
-/* a and b: 24.8 from the viewport's centre. */
+/* a and b: 24.8 from the viewport's centre; two places. */
 static void shape_trace(const lmb_draw_pass *pass, lmb_draw_shape *shape, const lmb_screen_vertex *a,
                         const lmb_screen_vertex *b)
 {
@@ -446,9 +446,6 @@ static void shape_trace(const lmb_draw_pass *pass, lmb_draw_shape *shape, const 
     if ((dy < 0 ? -dy : dy) > (dx < 0 ? -dx : dx)) {
         const shape_way steep = {ay, ax - shift, ay + dy, ax + dx - shift, 1};
         w = steep;
-    }
-    if (w.from_along == w.to_along) {
-        return;
     }
     const int32_t first = (mini(w.from_along, w.to_along) - 1) >> 8, last = maxi(w.from_along, w.to_along) >> 8;
     const shape_dash dash = shape_dash_of(pass, &w, first, last);

@@ -311,9 +311,9 @@ static float at_rest(float v)
 
 /* Sets the target of a steady node. First points move with the light. So the target is a place of the cell near the
  * node's place, as far as there are points around it: it lies on the triangle of the nearest point, and at most three
- * quarters of the point's width off it, so in the lit block. */
+ * quarters of the point's width off it, so in the lit block. near: one of the first points. */
 static void steady_target(lmb_live_target *t, const builder *b, const lmb_live_point *p, uint32_t count,
-                          lmb_vec3 place, lmb_vec3 normal)
+                          const lmb_live_point *near, lmb_vec3 place, lmb_vec3 normal)
 {
     const float side = b->extent * (float)(1u << b->shift / 3) / (float)CELLS;
     const lmb_vec3 from = mul3(sub3(p->position, b->low), 1.0f / side),
@@ -321,7 +321,6 @@ static void steady_target(lmb_live_target *t, const builder *b, const lmb_live_p
                    in = mul3(sub3(place, low), 1.0f / side);
     const lmb_vec3 rest = add3(low, mul3(vec3(at_rest(in.x), at_rest(in.y), at_rest(in.z)), side)),
                    wanted = sub3(rest, mul3(normal, dot3(normal, sub3(rest, place))));
-    const lmb_live_point *near = p;
     float near2 = 3e38f;
     for (uint32_t k = 0; k < count; ++k) {
         const lmb_vec3 d = sub3(p[k].position, wanted);
@@ -330,9 +329,6 @@ static void steady_target(lmb_live_target *t, const builder *b, const lmb_live_p
             near = &p[k];
             near2 = d2;
         }
-    }
-    if (near->face == LMB_LIVE_ELEMENT) {
-        return;
     }
     const lmb_vec3 to = sub3(wanted, near->position), along = sub3(to, mul3(near->normal, dot3(near->normal, to)));
     const float far = length3(along), max = 0.75f * sqrtf(near->area);
@@ -408,7 +404,7 @@ static void put_node(const builder *b, uint32_t slot, range r)
     c->count[i] = count | LMB_LIVE_LEAF;
     c->threshold[i] = b->live->steady ? threshold_of(b, p) : 0.0f;
     if (b->live->steady && !b->is_fine && target->face != LMB_LIVE_ELEMENT) {
-        steady_target(&c->target[i], b, p, count, place, normal);
+        steady_target(&c->target[i], b, p, count, target, place, normal);
     }
 }
 

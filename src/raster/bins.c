@@ -423,9 +423,7 @@ typedef struct bin_drawing {
 static void draw_large(const lmb_fill_context *c, const bin_large *l)
 {
     lmb_setup setup;
-    if (!lmb_setup_triangle(&setup, &l->corner[0], &l->corner[1], &l->corner[2])) {
-        return;
-    }
+    (void)lmb_setup_triangle(&setup, &l->corner[0], &l->corner[1], &l->corner[2]); /* with area: put_large_triangle */
     if (l->flags & LARGE_IS_MASKED) {
         lmb_fill_masked(c, &setup, l->id, LMB_MULTISAMPLE && (l->flags & LARGE_BLENDS) != 0);
     } else {
