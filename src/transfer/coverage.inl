@@ -56,43 +56,49 @@ LANE_INLINE lane share_less(lane part, lane covered)
 }
 
 /* Each triangle gets the cell area that it covers minus the coverage of nearer triangles; the shares of a cell add up
- * to 1. */
+ * to 1. Cells k, k + 1, .. of a block. */
+LANE_INLINE void share_cells(float out[LMB_TRANSFER_SHARING][LMB_TRANSFER_BLOCK_CELLS],
+                             const lmb_transfer_shown *shown, int32_t count, const float at[2], int k)
+{
+    const lane one = lane_splat(1.0f);
+    const lane x = lane_add(lane_splat(at[0]), lane_load(share_column + k));
+    const lane y = lane_add(lane_splat(at[1]), lane_load(share_row + k));
+    lane cover[LMB_TRANSFER_SHARING], part[LMB_TRANSFER_SHARING];
+    lane all = lane_splat(0.0f);
+    for (int32_t i = 0; i < count; ++i) {
+        lane reach = one;
+        cover[i] = one;
+        if (shown[i].id != 0) {
+            share_cover(&cover[i], &reach, &shown[i], x, y);
+        }
+        part[i] = cover[i];
+        lane_store(out[i] + k, reach); /* stored here: a third array of 512-bit lanes exceeds the stack budget */
+    }
+    for (int32_t i = 0; i < count; ++i) {
+        for (int32_t j = 0; j < i; ++j) {
+            const lane nearer = shown[i].id == 0   ? lane_splat(0.0f)
+                                : shown[j].id == 0 ? one
+                                                   : share_nearer(&shown[i], &shown[j], x, y);
+            part[j] = share_less(part[j], lane_mul(nearer, cover[i]));
+            part[i] = share_less(part[i], lane_mul(lane_sub(one, nearer), cover[j]));
+        }
+    }
+    for (int32_t i = 0; i < count; ++i) {
+        part[i] = lane_add(part[i], lane_mul(lane_load(out[i] + k), lane_splat(SHARE_REACH)));
+        all = lane_add(all, part[i]);
+    }
+    for (int32_t i = 0; i < count; ++i) {
+        lane_store(out[i] + k, lane_div(part[i], all));
+    }
+}
+
+/* For the first `cells` columns and rows. */
 static void KERNEL(transfer_share)(float out[LMB_TRANSFER_SHARING][LMB_TRANSFER_BLOCK_CELLS],
                                    const lmb_transfer_shown *shown, int32_t count, const float at[2], int32_t cells)
 {
     for (int k = 0; k < LMB_TRANSFER_CELLS * cells; k += LANES) {
-        if (k % LMB_TRANSFER_CELLS >= cells) {
-            continue;
-        }
-        const lane one = lane_splat(1.0f);
-        const lane x = lane_add(lane_splat(at[0]), lane_load(share_column + k));
-        const lane y = lane_add(lane_splat(at[1]), lane_load(share_row + k));
-        lane cover[LMB_TRANSFER_SHARING], part[LMB_TRANSFER_SHARING];
-        lane all = lane_splat(0.0f);
-        for (int32_t i = 0; i < count; ++i) {
-            lane reach = one;
-            cover[i] = one;
-            if (shown[i].id != 0) {
-                share_cover(&cover[i], &reach, &shown[i], x, y);
-            }
-            part[i] = cover[i];
-            lane_store(out[i] + k, reach); /* stored here: a third array of 512-bit lanes exceeds the stack budget */
-        }
-        for (int32_t i = 0; i < count; ++i) {
-            for (int32_t j = 0; j < i; ++j) {
-                const lane nearer = shown[i].id == 0   ? lane_splat(0.0f)
-                                    : shown[j].id == 0 ? one
-                                                       : share_nearer(&shown[i], &shown[j], x, y);
-                part[j] = share_less(part[j], lane_mul(nearer, cover[i]));
-                part[i] = share_less(part[i], lane_mul(lane_sub(one, nearer), cover[j]));
-            }
-        }
-        for (int32_t i = 0; i < count; ++i) {
-            part[i] = lane_add(part[i], lane_mul(lane_load(out[i] + k), lane_splat(SHARE_REACH)));
-            all = lane_add(all, part[i]);
-        }
-        for (int32_t i = 0; i < count; ++i) {
-            lane_store(out[i] + k, lane_div(part[i], all));
+        if (k % LMB_TRANSFER_CELLS < cells) {
+            share_cells(out, shown, count, at, k);
         }
     }
 }
