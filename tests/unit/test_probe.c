@@ -18,7 +18,8 @@ enum { CUBE_TEXELS = 6 * CUBE * CUBE };
 /* --- a world of formulas ------------------------------------------------------------------------------------------ */
 
 typedef struct stage {
-    float face[6][FACE * FACE * 3], ground[GROUND * GROUND * 4], map[3 * COUNT], cube[3 * CUBE_TEXELS];
+    float face[6][FACE * FACE * 3], ground[GROUND * GROUND * 4], cube[3 * CUBE_TEXELS];
+    float map[3 * COUNT], other[3 * COUNT];
     lmb_world_pictures pictures;
     lmb_world world;
     lmb_probe_table table;
@@ -385,19 +386,36 @@ static void blank_in_part(stage *s)
 
 /* --- lamps -------------------------------------------------------------------------------------------------------- */
 
-/* Irradiance and direction of one texel of `radiance` among dark ones. */
-static void lamp(stage *s, int face, int at, float radiance, lmb_vec3 place, float tolerance)
+/* Normal of the far world at a point of it, of either sign. */
+static lmb_vec3 far_normal(const lmb_world_pictures *p, lmb_vec3 q)
+{
+    const lmb_vec3 to_low = sub3(q, p->low), to_high = sub3(p->high, q), off = min3(to_low, to_high);
+    if (p->shape == LMB_WORLD_SPHERE) {
+        return normalize3(sub3(q, p->middle));
+    }
+    return off.x < minf(off.y, off.z) ? vec3(1, 0, 0) : off.y < off.z ? vec3(0, 1, 0) : vec3(0, 0, 1);
+}
+
+/* A world with one texel of `radiance` among dark ones. Returns its irradiance at a place, and sets the direction. */
+static float one_lamp(lmb_vec3 *to, stage *s, int face, int at, float radiance, lmb_vec3 place)
 {
     const int32_t x = at % FACE, y = at / FACE;
     const float u = cube_coordinate(x, FACE), v = cube_coordinate(y, FACE), l2 = 1.0f + u * u + v * v;
     const lmb_vec3 d = cube_direction(face, x, y, FACE), q = far_point(&s->pictures, s->pictures.centre, d),
                    way = sub3(q, place), from = sub3(q, s->pictures.centre);
-    const lmb_vec3 normal = normalize3(sub3(q, s->pictures.middle)), to = normalize3(way);
+    const lmb_vec3 normal = far_normal(&s->pictures, q);
     const float area = 4.0f / ((float)(FACE * FACE) * l2 * sqrtf(l2));
-    const float flux = radiance * area * (dot3(from, from) / dot3(way, way)) * (dot3(normal, to) / dot3(normal, d));
+    *to = normalize3(way);
     memset(s->face, 0, sizeof s->face);
     s->face[face][3 * at] = s->face[face][3 * at + 1] = s->face[face][3 * at + 2] = radiance;
     CHECK(make_world(s, LMB_WORLD_F32) == LMB_OK && s->world.peaks == 1);
+    return radiance * area * (dot3(from, from) / dot3(way, way)) * absf(dot3(normal, *to) / dot3(normal, d));
+}
+
+static void lamp(stage *s, int face, int at, float radiance, lmb_vec3 place, float tolerance)
+{
+    lmb_vec3 to;
+    const float flux = one_lamp(&to, s, face, at, radiance, place);
     see_from(s, place, 0);
     CHECK(lmb_probe_reduce(&s->lights, picked_kernels(), s->map, &s->table) == LMB_OK && s->lights.peaks > 0);
     CHECK(lmb_probe_cosine(s->cube, CUBE, picked_kernels(), &s->lights, &s->table) == LMB_OK);
@@ -417,7 +435,123 @@ static void lamps(stage *s)
         lamp(s, i % 6, (i * 1237 + 411) % (FACE * FACE), 1000.0f, i < 12 ? s->pictures.centre : vec3(11.0f, 9.0f, -20.0f),
              0.01f);
     }
+    s->pictures.shape = LMB_WORLD_BOX;
+    for (int i = 0; i < 6; ++i) { /* one on each wall */
+        lamp(s, i, (i * 531 + 1211) % (FACE * FACE), 1000.0f, vec3(11.0f, 9.0f, -12.0f), 0.01f);
+    }
+    /* A place outside the box counts as the nearest place inside. */
+    see_from(s, vec3(11.0f, 900.0f, -12.0f), 0);
+    const lmb_vec3 middle = mul3(add3(s->pictures.low, s->pictures.high), 0.5f);
+    memcpy(s->other, s->map, sizeof s->map);
+    see_from(s, vec3(11.0f, middle.y + 0.999f * (s->pictures.high.y - middle.y), -12.0f), 0);
+    float most = 0.0f, off = 0.0f;
+    for (int i = 0; i < 3 * COUNT; ++i) {
+        most = maxf(most, s->map[i]);
+        off = maxf(off, fabsf(s->map[i] - s->other[i]));
+    }
+    CHECK_MSG(most > 0.0f && off < 1e-4f * most, "%g of %g", (double)off, (double)most);
+    s->pictures.shape = LMB_WORLD_SPHERE;
     paint_sky(s);
+}
+
+/* The ground's picture lets the light of a lamp behind it through as far as it is blank there; with blend 1 it stops
+ * half of this. */
+static void lamp_under_ground(stage *s)
+{
+    enum { NO_GROUND, QUARTER, WHOLE, BESIDE, BEHIND, CASES };
+    const lmb_world_peak lamp = {{0.6f, -0.8f, 0.0f}, {1, 1, 1}, 1e-4f, 0, 0, 0, 0};
+    const lmb_vec3 at = vec3(2.0f, 1.0f, -3.5f), far = far_point(&s->pictures, s->pictures.centre, lamp.to),
+                   way = sub3(far, at), meets = add3(at, mul3(way, 1.0f / -way.y)); /* at y = 0 */
+    float seen[2][CASES];
+    for (int i = 0; i < CASES; ++i) {
+        paint_ground(s, i == QUARTER ? 0.0f : 1.0f);
+        s->ground[4 * ((int)(meets.z + 16.0f) * GROUND + (int)(meets.x + 16.0f)) + 3] = i == QUARTER ? 0.25f : 1.0f;
+        s->pictures.ground = i == NO_GROUND ? NULL : s->ground;
+        s->pictures.ground_x += i == BESIDE ? 20.0f : 0.0f; /* now from x = 4 on */
+        if (i == BEHIND) {
+            s->pictures.ground_y = -60.0f;
+            s->pictures.ground_x = s->pictures.ground_z = -2000.0f;
+            s->pictures.ground_width_m = s->pictures.ground_depth_m = 4000.0f;
+        }
+        CHECK(make_world(s, LMB_WORLD_F32) == LMB_OK);
+        for (int32_t blend = 0; blend < 2; ++blend) {
+            lmb_world_job job;
+            lmb_vec3 to;
+            lmb_world_ask(&job, &s->world, LMB_WORLD_ALL, 0.01f, blend);
+            seen[blend][i] = lmb_world_see_peak(&to, &job, &s->world, &lamp, at);
+        }
+    }
+    const float all = seen[0][NO_GROUND];
+    CHECK(all > 0.5f && seen[1][NO_GROUND] == all);
+    CHECK(fabsf(seen[0][QUARTER] - 0.75f * all) < 1e-5f && fabsf(seen[1][QUARTER] - 0.875f * all) < 1e-5f);
+    CHECK(seen[0][WHOLE] == 0.0f && fabsf(seen[1][WHOLE] - 0.5f * all) < 1e-5f);
+    CHECK(seen[0][BESIDE] == all && seen[1][BESIDE] == all);
+    CHECK(seen[0][BEHIND] == all && fabsf(seen[1][BEHIND] - 0.5f * all) < 1e-5f);
+    s->pictures.ground = NULL;
+    s->pictures.ground_y = 0.0f;
+}
+
+/* D G / 4 of the lobe seen along its normal, for light at this cosine to the mirror direction. */
+static double lobe(double alpha, double z)
+{
+    const double a2 = alpha * alpha, h = 0.5 * (1.0 + z) * (a2 - 1.0) + 1.0;
+    return z > 0.0 ? a2 / (4.0 * 3.14159265358979 * h * h) * 2.0 * z / (z + sqrt(a2 + (1.0 - a2) * z * z)) : 0.0;
+}
+
+/* A rough surface shows a lamp as the lobe around it, so that a world of radiance 1 would show 1. */
+static void lamp_in_lobe(stage *s)
+{
+    enum { STEPS = 2000 };
+    const lmb_vec3 place = vec3(11.0f, 9.0f, -20.0f);
+    const lmb_world_query query = {&s->world, 0.0f, 0};
+    static lmb_probe_rays rays;
+    lmb_vec3 to;
+    const float roughness[2] = {0.3f, 0.7f}, flux = one_lamp(&to, s, 2, 1200, 1000.0f, place);
+    for (int i = 0; i < 2; ++i) {
+        const double alpha = (double)(roughness[i] * roughness[i]);
+        double all = 0.0, worst = 0.0;
+        for (int k = 0; k < STEPS; ++k) {
+            all += lobe(alpha, (k + 0.5) / STEPS) * 2.0 * 3.14159265358979 / STEPS;
+        }
+        const double most = (double)flux * lobe(alpha, 1.0) / all;
+        CHECK(lmb_probe_reflect(s->cube, CUBE, picked_kernels(), &rays, &query, place, roughness[i]) == LMB_OK);
+        for (int k = 0; k < 3 * CUBE_TEXELS; ++k) {
+            const int at = k % CUBE_TEXELS;
+            const lmb_vec3 r = cube_direction(at / (CUBE * CUBE), at % CUBE, at / CUBE % CUBE, CUBE);
+            worst = fmax(worst, fabs((double)s->cube[k] - (double)flux * lobe(alpha, (double)dot3(r, to)) / all));
+        }
+        CHECK_MSG(worst < 0.01 * most, "roughness %g: %g of %g", (double)roughness[i], worst, most);
+    }
+    paint_sky(s);
+}
+
+/* Of more bright blocks than a reduced map has peaks, the strongest become peaks. */
+static void strongest_blocks(stage *s)
+{
+    enum { MORE = LMB_PROBE_PEAKS + 16 };
+    float weakest = 1e30f, light[MORE];
+    double sum = 0.0, strongest = 0.0;
+    memset(s->map, 0, sizeof s->map);
+    for (int i = 0; i < MORE; ++i) { /* rows 20 .. 35: MORE different lights, in no order */
+        const int at = (20 + 2 * (i / 10)) * WIDTH + 12 * (i % 10);
+        s->map[at] = 100.0f + (float)(i * 37 % MORE);
+        light[i] = s->map[at] * s->table.area[at / WIDTH];
+    }
+    CHECK(lmb_probe_reduce(&s->lights, picked_kernels(), s->map, &s->table) == LMB_OK);
+    CHECK(s->lights.peaks == LMB_PROBE_PEAKS);
+    for (int i = 0; i < LMB_PROBE_PEAKS; ++i) {
+        weakest = minf(weakest, s->lights.peak[3][i]);
+        sum += (double)s->lights.peak[3][i];
+    }
+    for (int i = 0; i < MORE; ++i) {
+        int stronger = 0;
+        for (int k = 0; k < MORE; ++k) {
+            stronger += light[k] > light[i];
+        }
+        strongest += stronger < LMB_PROBE_PEAKS ? (double)light[i] : 0.0;
+        CHECK((stronger < LMB_PROBE_PEAKS) == (light[i] > weakest * (1.0f - 1e-6f)));
+    }
+    CHECK_MSG(fabs(sum / strongest - 1.0) < 1e-6, "%g of %g", sum, strongest);
 }
 
 /* More lamps than peaks: the strongest become peaks, and no light of the others is lost. */
@@ -738,7 +872,10 @@ void test_probe(void)
         means_of_levels(s, i, 1 + i * 7 % GROUND, 1 + i * 5 % GROUND);
     }
     lamps(s);
+    lamp_in_lobe(s);
+    lamp_under_ground(s);
     many_lamps(s);
+    strongest_blocks(s);
     refusals(s);
     each_harmonic(s);
     stage_free(s);
