@@ -7,6 +7,7 @@
 #include "../../src/raster/target.h"
 #include "../../src/raster/tile.h"
 #include "../../src/raster/triangle.h"
+#include "../../src/transfer/air.h"
 #include "../../tools/bake/bake.h"
 #include "../../tools/demo/demo_scene.h"
 #include "../reused_frame.h"
@@ -54,6 +55,15 @@ static lit lit_by(const lmb_transfer *t, const lmb_scene *scene)
 static uint32_t places(const lmb_transfer *t)
 {
     return t->count[LMB_TRANSFER_RECEIVERS] + t->count[LMB_TRANSFER_CLUSTERS];
+}
+
+static double sum_of(const lit *l, int c)
+{
+    double sum = 0.0;
+    for (uint32_t i = 0; i < l->t->count[LMB_TRANSFER_AREAS]; ++i) {
+        sum += (double)l->light.power[i][c];
+    }
+    return sum;
 }
 
 /* Sends all light, `piece` receivers per call. */
@@ -518,22 +528,58 @@ static void bad_air(void)
     }
 }
 
-/* Pieces that share halves: no more paths are followed than there are pieces. */
-static void shared_halves(void)
+/* Pieces that share halves: no more paths are followed than there are pieces. Light reaches an element below fewer than
+ * LMB_TRANSFER_MAX_HALVINGS halvings, and none below more. */
+static void shared_halves(uint32_t lines)
 {
-    enum { LINES = 200, WORDS = SMALL_WORDS + LINES - 6 };
-    static uint32_t word[WORDS];
-    const size_t at = LMB_TRANSFER_HEADER_WORDS + 4 * ROOM_TRIANGLES;
-    lmb_transfer t;
+    enum { MOST = 200 };
+    static uint32_t word[SMALL_WORDS + MOST - 6];
+    const size_t at = LMB_TRANSFER_HEADER_WORDS + 4 * ROOM_TRIANGLES, bytes = sizeof file + (lines - 6) * sizeof *word;
+    lmb_transfer t, plain = open_small();
+    const lmb_shadow_map map = draw_map(&room.scene);
     memcpy(word, file, at * sizeof *word);
-    for (uint32_t i = 0; i < LINES; ++i) {
-        word[at + i] = i + 2 < LINES ? SMALL_HALF(0, i + 1) : SMALL_LEAF(0);
+    for (uint32_t i = 0; i < lines; ++i) {
+        word[at + i] = i + 2 < lines ? SMALL_HALF(0, i + 1) : SMALL_LEAF(0);
     }
-    memcpy(word + at + LINES, file + at + 6, sizeof file - (at + 6) * sizeof *word);
-    word[2] = sizeof word;
-    word[7] = LINES;
-    CHECK(lmb_transfer_open(&t, word, sizeof word) == LMB_OK);
-    lit l = lit_by(&t, &room.scene); /* ends */
+    memcpy(word + at + lines, file + at + 6, sizeof file - (at + 6) * sizeof *word);
+    word[2] = (uint32_t)bytes;
+    word[7] = lines;
+    CHECK(lmb_transfer_open(&t, word, bytes) == LMB_OK);
+    lit l = lit_by(&t, &room.scene), whole = lit_by(&plain, &room.scene); /* ends */
+    collect(&l, &map, 8, MAP);
+    collect(&whole, &map, 8, MAP);
+    const double all = sum_of(&whole, 0), want = lines > LMB_TRANSFER_MAX_HALVINGS ? 0.0 : all;
+    CHECK_MSG(all > 0.0 && fabs(sum_of(&l, 0) - want) <= 1e-4 * all, "%u pieces: %g, not %g", (unsigned)lines,
+              sum_of(&l, 0), want);
+    free(l.memory);
+    free(whole.memory);
+}
+
+/* Which ids move: those of each range, and LMB_TRANSFER_NONE. Without places in the air, moving pixels stay dark. */
+static void moves_by_ranges(void)
+{
+    static const uint32_t range[4] = {2, 3, 4, 5};
+    static lmb_tile tile;
+    static lmb_irradiance out;
+    lmb_transfer t = open_small();
+    lit l = lit_by(&t, &room.scene);
+    for (int i = 0; i < SMALL_RECEIVERS; ++i) {
+        l.light.receiver[i][0] = 1.0f;
+    }
+    t.section[LMB_TRANSFER_MOVING] = range;
+    t.count[LMB_TRANSFER_MOVING] = 2;
+    for (uint32_t id = 1; id <= 5; ++id) {
+        CHECK_MSG(lmb_transfer_moves(&t, id) == (id == 2 || id == 4), "%u", (unsigned)id);
+    }
+    CHECK(lmb_transfer_moves(&t, LMB_TRANSFER_NONE));
+    memset(&out, 0, sizeof out);
+    memset(&tile, 0, sizeof tile);
+    memset(&scratch, 0, sizeof scratch);
+    for (int k = 0; k < 2; ++k) {
+        pixel(&tile, k, 1 + (uint32_t)k, vec3(-0.5f + (float)k, 0, 0), Y);
+    }
+    CHECK(lmb_transfer_tile(&out, NULL, picked_kernels(), &scratch, &l.light, &t, &room.scene, &tile) == LMB_OK);
+    CHECK(is_near(out.rgb[0][0], 1.0f, 1e-5f) && out.rgb[0][1] == 0.0f);
     free(l.memory);
 }
 
@@ -830,15 +876,6 @@ static double power_of(const lmb_shadow_map *map, const lmb_light *light, int c)
     return sum;
 }
 
-static double sum_of(const lit *l, int c)
-{
-    double sum = 0.0;
-    for (uint32_t i = 0; i < l->t->count[LMB_TRANSFER_AREAS]; ++i) {
-        sum += (double)l->light.power[i][c];
-    }
-    return sum;
-}
-
 static void keeps_power(const lmb_transfer *t, const lmb_scene *scene)
 {
     const lmb_shadow_map map = draw_map(scene);
@@ -931,33 +968,45 @@ static void collects_all(const lmb_transfer *t)
     box_light = before;
 }
 
-/* Points between the walls and above the block, without maps: at one place per element, the elements collect 4 pi of
- * the summed intensities. Other pieces give the same bytes. */
+enum { LIGHTS = 40, CELLS = 64 };
+
+static lmb_light many_light[LIGHTS];
+
+/* Points between the walls and above the block. Sets the sum of their intensities. Returns the tree's memory. */
+static void *make_many_lights(lmb_many_lights *out, float sum[3])
+{
+    const size_t bytes = lmb_many_lights_bytes(CELLS);
+    void *memory = malloc(bytes);
+    test_rng r = {11};
+    sum[0] = sum[1] = sum[2] = 0.0f;
+    for (int i = 0; i < LIGHTS; ++i) {
+        lmb_light *l = &many_light[i];
+        l->kind = LMB_LIGHT_POINT;
+        l->position.x = (float)(test_random(&r) % 200u) * 0.01f - 1.0f;
+        l->position.y = (float)(test_random(&r) % 140u) * 0.01f - 0.4f;
+        l->position.z = (float)(test_random(&r) % 200u) * 0.01f - 1.0f;
+        for (int c = 0; c < 3; ++c) {
+            l->intensity[c] = (float)(1 + test_random(&r) % 9u) * 0.1f;
+            sum[c] += l->intensity[c];
+        }
+    }
+    CHECK(lmb_many_lights_init(out, CELLS, vec3(-2, -2, -2), vec3(2, 2, 2), 200.0f, memory, bytes) == LMB_OK);
+    CHECK(lmb_many_lights_add(out, many_light, LIGHTS) == LMB_OK && lmb_many_lights_build(out) == LMB_OK);
+    return memory;
+}
+
+/* Lights without maps: at one place per element, the elements collect 4 pi of the summed intensities. Other pieces give
+ * the same bytes. */
 static void takes_many_lights(const lmb_transfer *t)
 {
-    enum { LIGHTS = 40, CELLS = 64 };
-    static lmb_light lights[LIGHTS];
     static lmb_many_lights_scratch cut;
     static lmb_tile tile;
     lmb_irradiance fresh;
     lmb_many_lights many;
     lmb_bvh bvh;
-    test_rng r = {11};
-    float sum[3] = {0.0f, 0.0f, 0.0f};
-    const size_t bytes = lmb_many_lights_bytes(CELLS), bvh_bytes = lmb_bvh_bytes(lmb_scene_triangles(&world.scene));
-    void *memory = malloc(bytes), *bvh_memory = malloc(bvh_bytes);
-    for (int i = 0; i < LIGHTS; ++i) {
-        lights[i].kind = LMB_LIGHT_POINT;
-        lights[i].position.x = (float)(test_random(&r) % 200u) * 0.01f - 1.0f;
-        lights[i].position.y = (float)(test_random(&r) % 140u) * 0.01f - 0.4f;
-        lights[i].position.z = (float)(test_random(&r) % 200u) * 0.01f - 1.0f;
-        for (int c = 0; c < 3; ++c) {
-            lights[i].intensity[c] = (float)(1 + test_random(&r) % 9u) * 0.1f;
-            sum[c] += lights[i].intensity[c];
-        }
-    }
-    CHECK(lmb_many_lights_init(&many, CELLS, vec3(-2, -2, -2), vec3(2, 2, 2), 200.0f, memory, bytes) == LMB_OK);
-    CHECK(lmb_many_lights_add(&many, lights, LIGHTS) == LMB_OK && lmb_many_lights_build(&many) == LMB_OK);
+    float sum[3];
+    const size_t bvh_bytes = lmb_bvh_bytes(lmb_scene_triangles(&world.scene));
+    void *memory = make_many_lights(&many, sum), *bvh_memory = malloc(bvh_bytes);
     CHECK(lmb_bvh_init(&bvh, lmb_scene_triangles(&world.scene), bvh_memory, bvh_bytes) == LMB_OK);
     CHECK(lmb_bvh_build(&bvh, &world.scene) == LMB_OK);
     const lmb_many_lights_query query = {&many, &bvh, 0.001f, 1, 0, NULL};
@@ -1326,7 +1375,9 @@ typedef struct framed {
     void *memory;
 } framed;
 
-static framed frame_of(const lmb_transfer *t, const lmb_scene *scene, int which)
+/* many: lights without maps, or NULL. */
+static framed frame_with(const lmb_transfer *t, const lmb_scene *scene, int which, const lmb_many_lights *many,
+                         int32_t map)
 {
     framed f;
     lmb_frame_settings s;
@@ -1337,12 +1388,18 @@ static framed frame_of(const lmb_transfer *t, const lmb_scene *scene, int which)
     s.transfer = t;
     s.view = look(vec3(-1.2f, 0.4f, -1.2f), vec3(0.4f, -0.8f, 0.4f), 80, FRAME);
     s.show = LMB_SHOW_INDIRECT;
-    s.shadow_map = MAP;
+    s.shadow_map = map;
+    s.many_lights = many;
     CHECK(lmb_surface_init(&s.out, LMB_RGB32F, FRAME, FRAME, picture[which], sizeof picture[which]) == LMB_OK);
     const size_t bytes = lmb_frame_bytes(&s);
     f.memory = malloc(bytes);
     CHECK(bytes > 0 && lmb_frame_init(&f.frame, &s, f.memory, bytes) == LMB_OK);
     return f;
+}
+
+static framed frame_of(const lmb_transfer *t, const lmb_scene *scene, int which)
+{
+    return frame_with(t, scene, which, NULL, MAP);
 }
 
 static int is_same_picture(void) { return memcmp(picture[0], picture[1], sizeof picture[0]) == 0; }
@@ -1358,6 +1415,10 @@ static void draws_frames(const lmb_transfer *t, const lmb_scene *scene)
         sum += (double)picture[0][i];
     }
     CHECK(sum > 0.0);
+    free(f.memory);
+    f = frame_of(t, scene, 1); /* baked light is not gathered at single points */
+    f.frame.gather_step = LMB_GATHER_LIVE;
+    CHECK(lmb_render_frame(&render, &f.frame) == LMB_OK && is_same_picture());
     free(f.memory);
     for (int i = 0; i < COUNT(units); ++i) {
         f = frame_of(t, scene, 1);
@@ -1378,6 +1439,64 @@ static void draws_frames(const lmb_transfer *t, const lmb_scene *scene)
     }
     CHECK(is_same_picture());
     free(f.memory);
+}
+
+/* Frames of lights without maps: the elements collect 4 pi of the summed intensities, and the bounced light is the same
+ * in steps of any size. In each step the progress of the bounces grows. */
+static void draws_many_lights(const lmb_transfer *t)
+{
+    lmb_many_lights many;
+    float sum[3];
+    void *memory = make_many_lights(&many, sum);
+    world.scene.light_count = 0;
+    framed whole = frame_with(t, &world.scene, 0, &many, MAP), steps = frame_with(t, &world.scene, 1, &many, MAP);
+    CHECK(lmb_render_frame(&render, &whole.frame) == LMB_OK);
+    const lit l = {t, &world.scene, NULL, 0, whole.frame.transfer_light};
+    for (int c = 0; c < 3; ++c) {
+        const double want = 4.0 * PI * (double)sum[c], got = sum_of(&l, c);
+        CHECK_MSG(fabs(got / want - 1.0) < 0.05, "%g W of %g", got, want);
+    }
+    lmb_status status = lmb_render_begin(&render, &steps.frame);
+    int rises = 0, falls = 0;
+    float before = 0.0f;
+    while (status == LMB_OK || status == LMB_MORE) {
+        status = lmb_render_step(&render, 1);
+        const float now = lmb_render_progress(NULL, &render);
+        if (render.stage == LMB_STAGE_BOUNCES) {
+            rises += now > before;
+            falls += now < before || now > 1.0f;
+            before = now;
+        }
+        if (status == LMB_OK) {
+            break;
+        }
+    }
+    CHECK_MSG(status == LMB_OK && rises > 1 && falls == 0 && is_same_picture(), "%d rises, %d falls", rises, falls);
+    free(whole.memory);
+    free(steps.memory);
+    free(memory);
+    world.scene.light_count = 1;
+}
+
+/* Elements collect one texel in two by two of a map of 512, and all of a map of 256. */
+static void collects_some_texels(void)
+{
+    const lmb_transfer t = open_small();
+    for (int32_t side = 256; side <= 512; side *= 2) {
+        framed f = frame_with(&t, &room.scene, 0, NULL, side);
+        CHECK(lmb_render_frame(&render, &f.frame) == LMB_OK);
+        for (int32_t each = 1; each <= 4; each *= 2) {
+            lit l = lit_by(&t, &room.scene);
+            memset(&scratch, 0, sizeof scratch);
+            CHECK(lmb_transfer_collect(&l.light, picked_kernels(), &scratch, &t, &room.scene, &room.light,
+                                       &render.maps[0], 0, each, 0, side / each) == LMB_OK);
+            const int same = memcmp(l.light.power, f.frame.transfer_light.power,
+                                    t.count[LMB_TRANSFER_AREAS] * sizeof *l.light.power) == 0;
+            CHECK_MSG(same == (each == side / 256), "map of %d, each %d", (int)side, (int)each);
+            free(l.memory);
+        }
+        free(f.memory);
+    }
 }
 
 /* Hashes of a picture with three reflections, and of the elements' light for blocks of texels. */
@@ -1585,6 +1704,7 @@ static void test_box(void)
     is_linear(&t, &world.scene, 2.0f);
     is_linear(&t, &world.scene, 3.7f);
     draws_frames(&t, &world.scene);
+    draws_many_lights(&t);
     draws_pinned("a box with a block on its floor", &t, &world.scene, 0x03bdce99b77c0398u, 0x44eef72ca5ffe398u);
     draws_tiles(&t, &world.scene);
     takes_materials(&t);
@@ -1607,7 +1727,9 @@ void test_transfer(void)
     bad_words();
     bad_air();
     last_air();
-    shared_halves();
+    shared_halves(200);
+    shared_halves(30);
+    moves_by_ranges();
     cuts_of_files();
     lit_by_cuts(0.5f);
     lit_by_cuts(0.25f);
@@ -1621,6 +1743,7 @@ void test_transfer(void)
     keeps_to_range(&t);
     keeps_masked_power(&t);
     is_linear(&t, &room.scene, 3.7f);
+    collects_some_texels();
     fits();
     test_box();
     furnace();
