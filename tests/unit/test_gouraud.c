@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "../../src/base/codec.h"
+#include "../../src/direct/part.h"
 #include "../../src/vertex/gouraud_fill.h"
 #include "../../src/vertex/gouraud_light.h"
 #include "../small_transfer.h"
@@ -183,6 +184,10 @@ static void draw(const lmb_gouraud *g)
 }
 
 static int red_of(int k) { return pixels()[k] >> 11; }
+
+/* The red of a surface with albedo 0.5 and this irradiance. */
+static float red_by(float e) { return lmb_srgb_encode(e * 0.5f / 3.14159265f) * 31.0f / 255.0f; }
+
 static int green_of(int k) { return pixels()[k] >> 5 & 63; }
 
 /* Only the floor, from above. Even light gives even pixels; light that grows along x grows in the picture. */
@@ -253,6 +258,153 @@ static void cuts_the_floor(void)
     CHECK(seen > 10 * SIDE * SIDE);
 }
 
+/* Views without perspective: a floor that extends far beyond the picture fills it from above, and shows nothing from
+ * below. */
+static void cuts_without_perspective(void)
+{
+    for (int below = 0; below < 2; ++below) {
+        lmb_gouraud g = frame_of(vec3(0.2f, below ? -0.5f : 0.5f, 0.1f), vec3(0.2f, 0, 0.1f));
+        int shown = 0;
+        g.view.kind = LMB_ORTHOGRAPHIC;
+        g.view.half_width = g.view.half_height = 0.001f;
+        g.view.near_m = 0.1f;
+        g.view.far_m = 2.0f;
+        CHECK(lmb_gouraud_begin(&g) == LMB_OK && lmb_gouraud_draw(&g, 1, 2) == LMB_OK);
+        for (int k = 0; k < SIDE * SIDE; ++k) {
+            shown += depth[k] != 0;
+        }
+        CHECK_MSG(shown == (below ? 0 : SIDE * SIDE), "below %d: %d pixels", below, shown);
+    }
+}
+
+/* --- vertices ----------------------------------------------------------------------------------------------------- */
+
+/* The room's mesh with vertices that triangles share: the floor's 0, 1, 2, 5, the ceiling's 6, 7, 8, 11. */
+static int16_t vertex_normal[12][2];
+static uint8_t vertex_colour[12][4];
+
+static void share_vertices(void)
+{
+    static const uint32_t indices[12] = {0, 1, 2, 0, 2, 5, 6, 7, 8, 6, 8, 11};
+    room.mesh.indices = indices;
+    room.mesh.index_format = LMB_INDEX_U32;
+}
+
+/* All reflected light comes from cluster 0: red by the normal's x, green by -y. */
+static void light_clusters(float red, float green)
+{
+    memset(light_memory, 0, sizeof light_memory);
+    light.cluster[0][0] = red;
+    light.cluster[0][4] = -green;
+}
+
+/* The ceiling has light by direction: vertices with a normal get its light, transformed like normals; without normals
+ * the face counts. */
+static void lights_by_normal(void)
+{
+    static const float across[3] = {1.0f, 2.0f, -1.0f};
+    for (int i = 0; i < 6; ++i) {
+        const lmb_gouraud g = frame_of(vec3(0, 0.1f, 0), vec3(0, 1, 0));
+        const float x = across[i / 2];
+        const lmb_vec3 n = i % 2 ? normalize3(vec3(0.6f / x, -0.8f, 0)) : vec3(0, -1, 0);
+        int off = 0, empty = 0;
+        share_vertices();
+        for (int k = 0; k < 12; ++k) {
+            lmb_octahedral_encode(vertex_normal[k], vec3(0.6f, -0.8f, 0));
+        }
+        room.mesh.normals = i % 2 ? vertex_normal[0] : NULL;
+        room.instance.to_world.m[0] = x;
+        /* all blends in full from cluster 0 */
+        uint32_t *corner = file + (transfer.section[LMB_TRANSFER_CORNERS] - file) + 9;
+        memset(corner, 0, 6 * sizeof *corner);
+        light_clusters(x < 0.0f ? -3.0f : 3.0f, 1.5f);
+        CHECK(lmb_gouraud_begin(&g) == LMB_OK && lmb_gouraud_draw(&g, 3, 2) == LMB_OK);
+        const float red = red_by(3.0f * absf(n.x)), green = red_by(1.5f * -n.y) * 63.0f / 31.0f;
+        for (int k = 0; k < SIDE * SIDE; ++k) {
+            empty += depth[k] == 0;
+            off += fabsf((float)red_of(k) - red) > 1.0f || fabsf((float)green_of(k) - green) > 1.0f;
+        }
+        CHECK_MSG(empty == 0 && off == 0, "case %d: %d empty, %d off", i, empty, off);
+    }
+}
+
+/* Triangles with vertex normals share a vertex's light, with the blend of the first one; without normals each triangle
+ * has its own. */
+static void shares_vertex_light(void)
+{
+    for (int smooth = 0; smooth < 2; ++smooth) {
+        const lmb_gouraud g = frame_of(vec3(0, 0.1f, 0), vec3(0, 1, 0));
+        uint32_t *corner = file + (transfer.section[LMB_TRANSFER_CORNERS] - file) + 9;
+        share_vertices();
+        for (int k = 0; k < 12; ++k) {
+            lmb_octahedral_encode(vertex_normal[k], vec3(0, -1, 0));
+        }
+        room.mesh.normals = smooth ? vertex_normal[0] : NULL;
+        light_clusters(0.0f, 2.0f);
+        for (int i = 0; i < 2; ++i) {
+            CHECK(lmb_gouraud_begin(&g) == LMB_OK && lmb_gouraud_draw(&g, 3, 2) == LMB_OK);
+            CHECK(i == 0 || (memcmp(before, picture, sizeof before) == 0) == smooth);
+            memcpy(before, picture, sizeof before);
+            CHECK(corner[4] == (uint32_t)(i == 0));
+            corner[4] = 0; /* of the second triangle, at a vertex that both share */
+        }
+    }
+}
+
+/* A divided triangle interpolates the vertices' colours at the corners of its parts, here at the middle of vertices 0
+ * and 1. */
+static void divides_colours(void)
+{
+    static const uint8_t red[3] = {0, 255, 128};
+    const lmb_gouraud g = frame_of(vec3(0, 3, 0), vec3(0, 0, 0));
+    for (int k = 0; k < 12; ++k) {
+        memset(vertex_colour[k], 255, sizeof vertex_colour[k]);
+        vertex_colour[k][0] = red[k % 3];
+    }
+    room.mesh.colours = vertex_colour[0];
+    for (int i = 0; i < SMALL_RECEIVERS; ++i) {
+        light.receiver[i][0] = light.receiver[i][1] = light.receiver[i][2] = 3.0f;
+    }
+    CHECK(lmb_gouraud_begin(&g) == LMB_OK && lmb_gouraud_draw(&g, 1, 1) == LMB_OK);
+    for (int i = 1; i < 16; ++i) { /* from the middle to vertex 2 */
+        const float x = -1.0f + 0.125f * (float)i, z = 0.0625f * (float)i, half = 3.0f * tanf(0.4f);
+        const int k = (int)((0.5f - 0.5f * z / half) * SIDE) * SIDE + (int)((0.5f - 0.5f * x / half) * SIDE);
+        CHECK_MSG(fabsf((float)red_of(k) - red_by(3.0f * 128.0f / 255.0f)) < 2.0f, "%d: %d", i, red_of(k));
+        CHECK_MSG(fabsf((float)green_of(k) - red_by(3.0f) * 63.0f / 31.0f) < 2.0f, "%d: %d", i, green_of(k));
+    }
+}
+
+/* Parts with light by direction show what parts with receivers of the same light show, direct light included. */
+static void divides_directed(void)
+{
+    lmb_gouraud g = frame_of(vec3(0, 0.9f, 0), vec3(0, 0, 0));
+    int differ = 0, grows = 0;
+    room.light.kind = LMB_LIGHT_POINT;
+    CHECK(lmb_shadow_map_init(&map, &room.light, &room.scene, MAP, LMB_ID32, map_memory, sizeof map_memory) == LMB_OK);
+    CHECK(lmb_gouraud_map(&map, &scratch, &room.scene) == LMB_OK);
+    for (int i = 0; i < 3; ++i) {
+        uint32_t *division = file + (transfer.section[LMB_TRANSFER_DIVISIONS] - file);
+        memset(light_memory, 0, sizeof light_memory);
+        for (int k = 0; k < SMALL_RECEIVERS; ++k) {
+            light.receiver[k][0] = i == 0 ? 1.0f : 0.0f;
+        }
+        light.cluster[0][1] = light.cluster[1][1] = i == 1 ? 1.0f : 0.0f; /* red by the normal's y */
+        division[4] = SMALL_LEAF(i == 1 ? 3 : 0);
+        division[5] = SMALL_LEAF(i == 1 ? 4 : 1);
+        g.maps = i < 2 ? &map : NULL;
+        CHECK(lmb_gouraud_begin(&g) == LMB_OK && lmb_gouraud_draw(&g, 1, 1) == LMB_OK);
+        for (int k = 0; k < SIDE * SIDE; ++k) {
+            const int was = ((const uint16_t *)before)[k] >> 11;
+            differ += i == 1 && (red_of(k) > was + 1 || red_of(k) < was - 1);
+            grows += i == 2 && was > red_of(k) + 3;
+        }
+        memcpy(before, picture, sizeof before);
+    }
+    CHECK_MSG(differ == 0 && grows > SIDE * SIDE / 3, "%d differ, %d of the light", differ, grows);
+}
+
+/* --- maps --------------------------------------------------------------------------------------------------------- */
+
 /* The ids match the rasterizer's, except for triangles that face away from the light. */
 static void draws_maps(void)
 {
@@ -321,6 +473,7 @@ static struct {
     lmb_material material;
     lmb_instance instance;
     lmb_light light;
+    lmb_core core;
     lmb_scene scene;
 } alone;
 
@@ -346,6 +499,7 @@ static lmb_gouraud square_under(lmb_vec3 middle, lmb_vec3 u, lmb_vec3 v)
     alone.material.alpha = 1.0f;
     alone.material.texture = -1;
     alone.instance.first_id = 1;
+    alone.scene.core = alone.core;
     for (int i = 0; i < 4; ++i) {
         alone.instance.to_world.m[5 * i] = 1.0f;
     }
@@ -392,6 +546,29 @@ static void shadows_by_face(void)
             CHECK_MSG(fabsf(near[0] - 1.0f / 0.16f) < 1e-4f, "square %d, face %d: %g", side, to, (double)near[0]);
         }
     }
+}
+
+/* A sun's map with a face for the scene's core and one for all: a point behind the square is dark in either face, and
+ * one beside it is lit. */
+static void shadows_by_core(void)
+{
+    for (int wide = 0; wide < 2; ++wide) {
+        light_alone(LMB_LIGHT_DIRECTIONAL, vec3(0, -1, 0));
+        alone.core.low = alone.core.wide_low = vec3(-0.5f, -0.5f, -0.5f);
+        alone.core.high = alone.core.wide_high = vec3(0.5f, 0.5f, 0.5f);
+        alone.core.wide_low.x = -8.0f;
+        alone.core.wide_high.x = 8.0f;
+        alone.core.faces = 2;
+        const float x = wide ? 6.0f : 0.0f;
+        const lmb_gouraud g = square_under(vec3(x, 0, 0), mul3(X, 0.3f), mul3(Z, 0.3f));
+        CHECK(map.faces == 2 && lmb_shadow_map_part(&map, vec3(x, -0.3f, 0)) == wide);
+        for (int i = 0; i < 2; ++i) {
+            float got[3] = {0, 0, 0};
+            lmb_gouraud_direct(got, &g, vec3(x + 0.45f * (float)i, -0.3f, 0), Y, 0, 0);
+            CHECK_MSG(got[0] == (float)i, "face %d, place %d: %g", wide, i, (double)got[0]);
+        }
+    }
+    memset(&alone.core, 0, sizeof alone.core);
 }
 
 /* A light's range, as for pixels. */
@@ -538,9 +715,15 @@ void test_gouraud(void)
     shows_the_nearer();
     shows_receivers();
     cuts_the_floor();
+    cuts_without_perspective();
+    lights_by_normal();
+    shares_vertex_light();
+    divides_colours();
+    divides_directed();
     draws_maps();
     casts_shadows();
     shadows_by_face();
+    shadows_by_core();
     ends_by_range();
     lights_slopes();
     reads_positions();
