@@ -161,6 +161,43 @@ static void test_planes(void)
     CHECK_MSG(outside == 0, "%d colours of slivers are none between the corners'", outside);
 }
 
+/* Found by search: wide and steep, so that rounding takes a colour outside the corners' at an end of a row. It must not
+ * leave the range of codes, in which it would wrap. */
+static void test_wide(void)
+{
+    enum { WIDE = 960, ROWS = 8 };
+    static const lmb_fixed_vertex corners[][3] = {
+        {{141, 102, 65519, {247, 1, 247}, 0}, {14926, 120, 65519, {247, 1, 1}, 0},
+         {11927, 223, 65519, {1, 247, 247}, 0}},
+        {{7911, 215, 16, {1, 247, 1}, 0}, {1035, 46, 65519, {247, 247, 1}, 0}, {15171, 54, 16, {1, 1, 1}, 0}},
+        {{788, -33, 16, {1, 1, 247}, 0}, {842, 244, 65519, {247, 247, 1}, 0}, {15151, 107, 16, {1, 1, 247}, 0}},
+        {{606, 35, 16, {1, 1, 247}, 0}, {15233, 54, 65519, {247, 1, 1}, 0}, {923, 139, 16, {247, 1, 1}, 0}}};
+    static uint32_t wide[WIDE * ROWS];
+    static uint16_t far_away[WIDE * ROWS];
+    for (int n = 0; n < (int)(sizeof corners / sizeof *corners); ++n) {
+        const fixed_band band = {wide, far_away, WIDE, 0, ROWS, LMB_FIXED_RGB888};
+        const lmb_fixed_vertex *c = corners[n];
+        const double x1 = c[1].x - c[0].x, y1 = c[1].y - c[0].y, x2 = c[2].x - c[0].x, y2 = c[2].y - c[0].y,
+                     area = x1 * y2 - x2 * y1;
+        int drawn = 0;
+        double off = 0.0;
+        memset(far_away, 0, sizeof far_away);
+        fill(&band, &c[0], &c[1], &c[2]);
+        for (int i = 0; i < WIDE * ROWS; ++i) {
+            const double x = 16 * (i % WIDE) + 8 - c[0].x, y = 16 * (i / WIDE) + 8 - c[0].y,
+                         b1 = (x * y2 - x2 * y) / area, b2 = (x1 * y - x * y1) / area;
+            for (int k = 0; k < 3 && far_away[i] != 0; ++k) {
+                const int own = (int)(wide[i] >> (16 - 8 * k) & 255u);
+                const double want = c[0].colour[k] + (c[1].colour[k] - c[0].colour[k]) * b1 +
+                                    (c[2].colour[k] - c[0].colour[k]) * b2;
+                off = larger(off, fabs(own - fmin(fmax(want, 1.0), 247.0)));
+                ++drawn;
+            }
+        }
+        CHECK_MSG(drawn > WIDE && off < 12.0, "triangle %d: %d values, off by %g", n, drawn, off);
+    }
+}
+
 /* --- frames ------------------------------------------------------------------------------------------------------- */
 
 enum { WIDTH = 96, HEIGHT = 64 };
@@ -314,6 +351,27 @@ static void test_views(void)
         }
     }
     CHECK_MSG(left == 0, "%d pixels of a closed room left", left);
+}
+
+/* The longest distance from eye to target: axes are orthogonal and of one length, and back points to the eye. */
+static void test_far_eyes(void)
+{
+    static const int32_t eye[3] = {LMB_FIXED_EYE, -LMB_FIXED_EYE, 20000}, to[3] = {-8191, 8191, -1000};
+    const double way[3] = {eye[0] - to[0], eye[1] - to[1], eye[2] - to[2]};
+    const double length = sqrt(way[0] * way[0] + way[1] * way[1] + way[2] * way[2]);
+    lmb_fixed_view v;
+    memset(&v, 0, sizeof v);
+    CHECK(lmb_fixed_look_at(&v, eye, to) == LMB_OK);
+    for (int i = 0; i < 3; ++i) {
+        CHECK_MSG(fabs(v.axis[2][i] - LMB_FIXED_ONE * way[i] / length) < 8.0, "%d: %d", i, (int)v.axis[2][i]);
+        for (int k = 0; k < 3; ++k) {
+            double product = 0.0;
+            for (int c = 0; c < 3; ++c) {
+                product += (double)v.axis[i][c] * (double)v.axis[k][c] / ((double)LMB_FIXED_ONE * LMB_FIXED_ONE);
+            }
+            CHECK_MSG(fabs(product - (i == k)) < 1.0 / 1024.0, "axes %d and %d: %g", i, k, product);
+        }
+    }
 }
 
 /* One wall that sees the whole lamp, against the formula. */
@@ -549,10 +607,12 @@ void test_fixed(void)
     test_numbers();
     test_fans();
     test_planes();
+    test_wide();
     test_frames();
     test_formats();
     test_hull();
     test_views();
+    test_far_eyes();
     test_light();
     test_dim();
     test_dazzling();
