@@ -279,6 +279,26 @@ static void check_full(void)
     }
 }
 
+/* If a full cut does not meet a conservative bound, and nothing blocks light, every texel lights the pixels. */
+static void check_full_bound(void)
+{
+    lmb_cut_params how = cut_params_of(1e-9f, NULL);
+    lmb_irradiance got;
+    how.conservative = 1;
+    lit_box();
+    take_quads();
+    floor_tile(vec3(-0.3f, -1, -0.3f), 0.05f);
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        tile.id[k] = k % LMB_TILE < 2 && k < 2 * LMB_TILE;
+    }
+    tile.hits = 4;
+    begin_cut();
+    gather(&got, &how);
+    CHECK_MSG(stats.full_cuts > 0 && stats.pairs >= 4 * (uint64_t)quad_count, "%.0f full, %.0f pairs, %d quads",
+              (double)stats.full_cuts, (double)stats.pairs, quad_count);
+    check_sane("full, bounded", &got, 1e-5);
+}
+
 /* A small error uses as many nodes as needed, up to the capacity. */
 static void check_many_nodes(void)
 {
@@ -510,6 +530,7 @@ void test_cut(void)
     check_error(0.02f, 0, 0.02, 0.12);
     check_error(0.1f, 0, 0.05, 0.09);
     check_full();
+    check_full_bound();
     check_many_nodes();
     check_promise();
     check_linear();
