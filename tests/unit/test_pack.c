@@ -151,6 +151,27 @@ static void test_refused(void)
     CHECK(open_with(at_part(LMB_PACK_TRACKS, 1), 200, bytes) == LMB_ERR_FORMAT);
 }
 
+/* The mesh with 32-bit indices at the file's end is the same; each index is checked. */
+static void test_wide_indices(void)
+{
+    static const uint32_t indices[6] = {0, 1, 2, 2, 1, 3};
+    const size_t bytes = make_small(), wide = bytes + sizeof indices;
+    lmb_pack p;
+    lmb_view view;
+    CHECK(wide <= sizeof words && lmb_pack_view(&view, &opened, &scene, 0, 0.0f, WIDE, HIGH) == LMB_OK);
+    const uint64_t was = draw(&scene, &view);
+    words[2] = (uint32_t)wide;
+    words[at_part(LMB_PACK_MESHES, 2)] ^= (uint32_t)(LMB_INDEX_U16 ^ LMB_INDEX_U32) << 16;
+    words[at_part(LMB_PACK_MESHES, 8)] = (uint32_t)bytes;
+    memcpy((uint8_t *)words + bytes, indices, sizeof indices);
+    CHECK(lmb_pack_open(&p, words, wide) == LMB_OK);
+    CHECK(lmb_pack_scene(&scene, &p, memory, sizeof memory) == LMB_OK);
+    CHECK(scene.meshes[0].index_format == LMB_INDEX_U32 && draw(&scene, &view) == was && was != 0);
+    for (uint32_t i = 0; i < 6; ++i) {
+        CHECK(open_with((uint32_t)bytes / 4 + i, 4, wide) == LMB_ERR_FORMAT);
+    }
+}
+
 /* Parts that share a byte with another part or with the table. The moved part has an unknown kind, so the file is
  * otherwise valid. */
 static void test_overlaps(void)
@@ -279,6 +300,30 @@ static void test_no_scale(void)
         CHECK(lmb_pack_view(&view, &opened, &scene, 0, 0.5f, WIDE, HIGH) == LMB_OK);
         CHECK(is_near(view.back, 0.70710678f, 0, 0.70710678f) && is_near(view.up, 0, 1, 0));
     }
+}
+
+/* Under a matrix that flattens space, a node rotated by 45 degrees has no Z axis, and without scale neither. A sun and
+ * a camera there have no direction. A point light needs none. */
+static void test_no_direction(void)
+{
+    static const float flat[12] = {1, 0, 0, 0, 1, 0, -1, 0, 0, 0, 1.5f, 0};
+    const size_t bytes = make_small();
+    lmb_view view;
+    words[at_part(LMB_PACK_LIGHTS, 12)] = words[at_part(LMB_PACK_CAMERAS, 19)] = 1;
+    words[at_part(LMB_PACK_NODES, 2)] = 0;
+    words[at_part(LMB_PACK_NODES, 3)] = 1;
+    memcpy(&words[at_part(LMB_PACK_NODES, 4)], flat, sizeof flat);
+    for (int kind = 0; kind < 2; ++kind) {
+        words[at_part(LMB_PACK_LIGHTS, 11)] = kind == 0 ? LMB_LIGHT_POINT : LMB_LIGHT_DIRECTIONAL;
+        CHECK(lmb_pack_open(&opened, words, bytes) == LMB_OK &&
+              lmb_pack_scene(&scene, &opened, memory, sizeof memory) == LMB_OK);
+        lmb_light lamp = scene.lights[0];
+        CHECK(lmb_pack_place_light(&lamp, &opened, 0, 0.0f) == LMB_OK); /* not rotated yet */
+        CHECK(lmb_pack_place_light(&lamp, &opened, 0, 0.5f) == (kind == 0 ? LMB_OK : LMB_ERR_SCENE));
+        CHECK(is_near(lamp.position, 0, 2.0f, 0));
+    }
+    CHECK(lmb_pack_view(&view, &opened, &scene, 0, 0.0f, WIDE, HIGH) == LMB_OK);
+    CHECK(lmb_pack_view(&view, &opened, &scene, 0, 0.5f, WIDE, HIGH) == LMB_ERR_SCENE);
 }
 
 /* Spans of two seconds: tangents of cubic keys are per second. Rotations have constant speed and take the shorter way,
@@ -808,10 +853,12 @@ void test_pack(void)
     test_in_place();
     test_range();
     test_refused();
+    test_wide_indices();
     test_overlaps();
     test_damaged();
     test_moves();
     test_no_scale();
+    test_no_direction();
     test_spans();
     test_formats();
     test_palette_from_afar();
