@@ -481,6 +481,19 @@ static void test_dropped(void)
     CHECK(stats.triangles == 22 && stats.triangles_dropped == 7 && case_guard_is_whole());
 }
 
+/* A line without length has no pixel, wherever it lies in one, wide or not. */
+static void test_no_length(void)
+{
+    for (int i = 0; i < 64; ++i) {
+        const float x = 5.0f + 0.25f * (float)(i % 4), y = 7.0f + 0.25f * (float)(i / 4 % 4);
+        const float both[2][3] = {{x, y, 0.5f}, {x, y, 0.5f}};
+        case_begin();
+        case_count();
+        state.line_px = 1 + i / 16;
+        CHECK(case_draw(LMB_DRAW_LINES, both, NULL, 2) == LMB_OK && case_counted(1, 255) == 0);
+    }
+}
+
 static lmb_status refuse(int32_t primitive)
 {
     static const float c[4][3] = {{0, 0, 1}, {0, 32, 1}, {40, 32, 1}, {40, 0, 1}};
@@ -536,7 +549,7 @@ static void test_refused(void)
         *floats[i] = -(float)INFINITY;
         CHECK_MSG(refuse(LMB_DRAW_QUADS) == LMB_ERR_ARG, "number %d", i);
     }
-    for (int i = 0; i < 17; ++i) {
+    for (int i = 0; i < 18; ++i) {
         static const uint8_t texels[4];
         const lmb_texture texture = {texels, 1, 1, (uint8_t)(i == 12 ? 2 : 1), 0, 0, (uint8_t)(i == 16 ? 3 : 0), 0};
         case_begin();
@@ -552,9 +565,16 @@ static void test_refused(void)
         state.point_px = i == 11 ? 0 : 1;
         state.line_repeat = (uint16_t)(i == 13 ? 0 : i == 14 ? 257 : 1);
         drawn_on.depth_far = i == 15 ? 1.0f : 0.0f;
+        drawn_on.colour.layout = i == 17 ? LMB_TILED : LMB_LINEAR;
         state.stage[1].texture = i == 12 || i == 16 ? &texture : NULL;
         CHECK_MSG(refuse(LMB_DRAW_QUADS) == (i == 16 ? LMB_ERR_FORMAT : LMB_ERR_ARG), "%d", i);
         CHECK(drawn.colour[3][3][0] == 0 && drawn.depth[0] == 0 && case_guard_is_whole());
+    }
+    const lmb_draw_vertices odd[2] = {{.position_format = LMB_DRAW_I16, .position_scale = {(float)NAN, 1, 1}},
+                                      {.uv_format = LMB_DRAW_I16, .uv_scale = (float)INFINITY}};
+    for (int i = 0; i < 2; ++i) {
+        case_begin();
+        CHECK(lmb_draw_list(&drawn_on, &state, &odd[i], LMB_DRAW_QUADS, NULL, NULL) == LMB_ERR_ARG);
     }
     case_begin();
     CHECK(refuse(-1) == LMB_ERR_ARG && refuse(10) == LMB_ERR_ARG);
@@ -623,6 +643,7 @@ void test_draw(void)
     test_culls();
     test_formats();
     test_dropped();
+    test_no_length();
     test_refused();
     test_random_states();
 }

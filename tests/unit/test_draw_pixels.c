@@ -510,7 +510,7 @@ static void test_rectangles(void)
     int wrong = 0, painted = 0;
     case_begin();
     for (int n = 0; n < 4000; ++n) {
-        float corner[4][3];
+        float corner[4][3], with_w[4][4];
         uint8_t colours[4][4];
         lmb_stats of_quad = {0}, of_triangles = {0};
         lmb_draw_vertices v;
@@ -522,7 +522,14 @@ static void test_rectangles(void)
                 memcpy(colours[k], colours[0], 4);
             }
         }
-        v.positions = corner;
+        for (int k = 0; k < 4; ++k) { /* the same places, at other distances */
+            with_w[k][3] = (float)(1u << test_random(&r) % 3);
+            for (int i = 0; i < 3; ++i) {
+                with_w[k][i] = corner[k][i] * with_w[k][3];
+            }
+        }
+        v.positions = n % 6 == 0 ? (const void *)with_w : (const void *)corner;
+        v.position_format = n % 6 == 0 ? LMB_DRAW_F32X4 : LMB_DRAW_F32;
         v.colours = n % 3 == 0 ? &colours[0][0] : NULL;
         v.count = 4;
         set_colour(state.colour, &r);

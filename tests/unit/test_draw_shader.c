@@ -13,6 +13,7 @@ static struct {
     int calls, backs, strange;
     uint32_t vertex[3];
     int leaves_even; /* 1: discards pixels with even x */
+    float off; /* largest difference of by_x and by_y from the change of the shares to the next pixels */
 } seen;
 
 static float mixed(const lmb_draw_pixels_of *p, const lmb_draw_fragment_at *at, int i)
@@ -20,6 +21,13 @@ static float mixed(const lmb_draw_pixels_of *p, const lmb_draw_fragment_at *at, 
     const float v0 = seen.colours[p->vertex[0]][i], v1 = seen.colours[p->vertex[1]][i],
                 v2 = seen.colours[p->vertex[2]][i];
     return v0 + at->share[0] * (v1 - v0) + at->share[1] * (v2 - v0);
+}
+
+/* Are pixel k of a tile and its four neighbours in the mask? */
+static int is_inner(uint64_t mask, int k)
+{
+    const uint64_t all = k > 7 && k < 56 ? (uint64_t)0x10381 << (k - 8) : 0;
+    return k % 8 > 0 && k % 8 < 7 && all != 0 && (mask & all) == all;
 }
 
 static uint64_t shade(void *user, const lmb_draw_pixels_of *p, uint8_t colour[64][4])
@@ -30,8 +38,15 @@ static uint64_t shade(void *user, const lmb_draw_pixels_of *p, uint8_t colour[64
     seen.backs += p->is_back;
     memcpy(seen.vertex, p->vertex, sizeof seen.vertex);
     for (int k = 0; k < 64; ++k) {
-        lmb_draw_fragment_at at;
+        lmb_draw_fragment_at at, next[2];
         lmb_draw_fragment(&at, p, k);
+        for (int i = 0; i < 4 && is_inner(p->mask, k); ++i) { /* from both sides */
+            const float by = i < 2 ? at.by_x[i % 2] : at.by_y[i % 2];
+            lmb_draw_fragment(&next[0], p, k - (i < 2 ? 1 : 8));
+            lmb_draw_fragment(&next[1], p, k + (i < 2 ? 1 : 8));
+            const float off = by - 0.5f * (next[1].share[i % 2] - next[0].share[i % 2]);
+            seen.off = (off < 0.0f ? -off : off) > seen.off ? (off < 0.0f ? -off : off) : seen.off;
+        }
         for (int i = 0; i < 4 && (p->mask >> k & 1) != 0; ++i) {
             const float v = mixed(p, &at, i);
             colour[k][i] = (uint8_t)(v < 0.0f ? 0.5f : v > 255.0f ? 255.5f : v + 0.5f);
@@ -214,6 +229,34 @@ static void test_lit_with_w(void)
     CHECK(lit[0][0][0] > 10 && lit[0][0][0] != lit[0][1][0] && memcmp(lit[0], lit[1], sizeof lit[0]) == 0);
 }
 
+/* Changes of the shares from pixel to pixel, with the same w everywhere and with different ones. */
+static void test_changes(void)
+{
+    for (int uneven = 0; uneven < 2; ++uneven) {
+        float at[4][4];
+        lmb_draw_vertices v;
+        memset(&v, 0, sizeof v);
+        for (int i = 0; i < 4; ++i) {
+            const float w = uneven ? 1.0f + 0.5f * (float)i : 2.0f;
+            const float clip[4] = {quad[i][0] / 20.0f - 1.0f, quad[i][1] / 16.0f - 1.0f, 0.0f, 1.0f};
+            for (int k = 0; k < 4; ++k) {
+                at[i][k] = clip[k] * w;
+            }
+        }
+        v.positions = at;
+        v.colours = colours[0];
+        v.position_format = LMB_DRAW_F32X4;
+        v.count = 4;
+        shader_begin();
+        memset(&state.to_clip, 0, sizeof state.to_clip);
+        for (int i = 0; i < 4; ++i) {
+            state.to_clip.m[5 * i] = 1.0f;
+        }
+        CHECK(lmb_draw_list(&drawn_on, &state, &v, LMB_DRAW_QUADS, NULL, NULL) == LMB_OK);
+        CHECK_MSG(shown() > 300 && seen.off < 1e-3f, "uneven %d: %g", uneven, (double)seen.off);
+    }
+}
+
 /* There is no pixel outside a shader. */
 static void test_no_pixel(void)
 {
@@ -232,6 +275,7 @@ void test_draw_shader(void)
     test_counted();
     test_with_w();
     test_lit_with_w();
+    test_changes();
     test_no_pixel();
 }
 
