@@ -257,10 +257,20 @@ typedef struct lit_room {
 } lit_room;
 static lmb_render lit_state;
 
+static int32_t smoke_kind = LMB_LIGHT_SPOT; /* of the room's lamp */
+static lmb_many_lights *smoke_many;         /* NULL, or gets the lamp instead of the scene */
+
 /* Draws a frame of the examples' room. */
 static lmb_status light_room(lit_room *room, lmb_frame_settings *s)
 {
     room->scene = room_scene(room->mesh, room->material, room->place, &room->light);
+    room->light.kind = smoke_kind;
+    if (smoke_many != NULL) {
+        CHECK(lmb_many_lights_add(smoke_many, &room->light, 1) == LMB_OK);
+        CHECK(lmb_many_lights_build(smoke_many) == LMB_OK);
+        room->scene.light_count = 0;
+        s->many_lights = smoke_many;
+    }
     s->kernels = lmb_kernels_pick();
     s->scene = &room->scene;
     CHECK(lmb_view_look_at(&s->view, room_eye, room_middle, room_up, 0.8f, WIDE, HIGH) == LMB_OK);
@@ -349,6 +359,37 @@ static void test_smoke(void)
     free(room.block);
 }
 
+/* Smoke in a sun, and in the lamp among lights without maps, which is the mean of six sides: here one of them faces the
+ * lamp. */
+static void test_smoke_by_kind(void)
+{
+    static const float at[1][3] = {{0, 1.5f, 0}};
+    const lmb_draw_vertices v = {.positions = at, .count = 1};
+    const size_t bytes = lmb_many_lights_bytes(16);
+    void *memory = malloc(bytes);
+    lmb_many_lights many;
+    const lmb_vec3 low = {-3, -3, -3}, high = {3, 3, 3};
+    CHECK(lmb_many_lights_init(&many, 16, low, high, 500.0f, memory, bytes) == LMB_OK);
+    for (int kind = 0; kind < (LMB_TREES ? 2 : 1); ++kind) {
+        uint8_t lit[4];
+        lit_room room;
+        lmb_frame_settings s;
+        memset(&s, 0, sizeof s);
+        s.show = LMB_SHOW_DIRECT;
+        smoke_kind = kind == 0 ? LMB_LIGHT_DIRECTIONAL : LMB_LIGHT_SPOT;
+        smoke_many = kind == 0 ? NULL : &many;
+        CHECK(light_room(&room, &s) == LMB_OK);
+        CHECK(lmb_render_vertices(lit, &lit_state, room.frame.scratch, &v, NULL, &here) == LMB_OK);
+        const double e = 12.0 / (kind == 0 ? 4 : 6) / 3.14159265358979; /* 12 W/m2 */
+        const double code = 255 * (1.055 * pow(e, 1 / 2.4) - 0.055);
+        CHECK_MSG(fabs(lit[0] - code) < 2.01, "kind %d: %d for %g", kind, lit[0], code);
+        free(room.block);
+    }
+    smoke_kind = LMB_LIGHT_SPOT;
+    smoke_many = NULL;
+    free(memory);
+}
+
 static void test_vertices_refused(void)
 {
     static const float at[2][3] = {{(float)NAN, 0, 0}, {0, 1, 0}};
@@ -395,6 +436,7 @@ void test_draw_light(void)
         test_surfaces(LMB_GATHER_LIVE, LMB_SHOW_FULL);
     }
     test_smoke();
+    test_smoke_by_kind();
     test_vertices_refused();
 }
 
