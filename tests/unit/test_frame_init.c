@@ -339,6 +339,9 @@ static void test_refused(void)
     crowded.lights = crowd;
     crowded.light_count = LMB_MAX_LIGHTS + 1;
     REFUSED(s.scene = &crowded, LMB_ERR_CAPACITY);
+    crowded.light_count = LMB_MAX_LIGHTS; /* more points than 32 bits can count */
+    REFUSED((s.scene = &crowded, s.quality = LMB_QUALITY_FIXED, s.shadow_map = LMB_MAX_SIDE, s.grouping.block = 1),
+            LMB_ERR_ARG);
 #undef REFUSED
     CHECK(lmb_frame_bytes(NULL) == 0);
 }

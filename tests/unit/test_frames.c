@@ -649,6 +649,30 @@ static void test_shows(void)
     CHECK(lit_pixels(&other) > FLOATS / 2 && lit_pixels(&reference) > FLOATS / 8);
 }
 
+/* A wall of LMB_UNLIT shows its colour, whatever the light; all else shows what it did. */
+static void test_unlit(void)
+{
+    enum { WALL = 3 };
+    const float *colour = room_materials[WALL].albedo;
+    int shown = 0, wrong = 0, lit = 0;
+    room_materials[WALL].flags ^= LMB_UNLIT;
+    room.light_count = 0;
+    render_show(&third, LMB_SHOW_DIRECT, LMB_OCCLUSION_VIEW, 0); /* only the wall */
+    set_lights(LIGHTS);
+    render_show(&other, LMB_SHOW_DIRECT, LMB_OCCLUSION_VIEW, 0);
+    room_materials[WALL].flags ^= LMB_UNLIT;
+    render_show(&reference, LMB_SHOW_DIRECT, LMB_OCCLUSION_VIEW, 0);
+    for (int i = 0; i < FLOATS; ++i) {
+        const int is_wall = value_at(&third, i - i % 3) > 0.0f;
+        shown += is_wall;
+        lit += is_wall && value_at(&reference, i) != value_at(&other, i);
+        wrong += value_at(&other, i) != (is_wall ? colour[i % 3] : value_at(&reference, i));
+        wrong += value_at(&third, i) != (is_wall ? colour[i % 3] : 0.0f);
+    }
+    CHECK_MSG(wrong == 0 && lit > 100 && shown > 100 && shown < FLOATS / 2, "%d wrong, %d of %d lit otherwise", wrong,
+              lit, shown);
+}
+
 /* ---- errors ---- */
 
 static void set_canaries(void)
@@ -1241,6 +1265,7 @@ void test_frames(void)
     test_sum_of_lights();
     test_reflected();
     test_shows();
+    test_unlit();
     test_odd_trees();
     test_refused();
     test_exact_memory();
