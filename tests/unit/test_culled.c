@@ -176,6 +176,11 @@ static void test_dropped(void)
     memset(bound, 0, sizeof bound);
     CHECK(lmb_draw_culled(&t, picked_kernels(), &st.view, &st.scene, 1, 5000, 0, &culling, &stats) == LMB_OK);
     CHECK(stats.triangles_dropped == 2); /* once per instance */
+    st.crowd[9 * 70] = 0.0f;
+    CHECK(lmb_clusters_build(st.cluster, CLUSTERS, &st.scene) == LMB_OK && st.cluster[1].high.z < 100.0f);
+    --st.mesh[0].vertex_count; /* of the last triangle, a vertex that is not there */
+    CHECK(lmb_clusters_build(st.cluster, CLUSTERS, &st.scene) == LMB_OK);
+    CHECK(st.cluster[10].low.x < -1e38f && st.cluster[10].high.z > 1e38f && st.cluster[9].high.x < 100.0f);
 }
 
 static void test_refused(void)

@@ -165,6 +165,10 @@ static const float nearly_flat[][9] = {
      0x1.2176c8p-1f, 0x1.3eb3eap-1f, -0x1.7641a8p-1f},
     {-0x1.1ab75ep-1f, 0x1.320878p-1f, -0x1.7511a4p-1f, -0x1.1ab772p-1f, -0x1.4f2dfp-1f, -0x1.7511bep-1f,
      0x1.3db11cp-1f, 0x1.32088ep-1f, -0x1.7511bep-1f},
+    {-0x1.25f0bep-1f, 0x1.642834p-1f, -0x1.9cdf7cp-1f, -0x1.0d449cp-2f, -0x1.d10be4p-2f, -0x1.9cdf8ep-1f,
+     0x1.9584b2p-1f, 0x1.36dd0ep-1f, -0x1.9cdf8ep-1f},
+    {-0x1.83923cp-2f, 0x1.7c0276p-3f, -0x1.0ef7e4p-1f, -0x1.9f286cp-2f, -0x1.5618acp-2f, -0x1.0ef7c4p-1f,
+     0x1.f890c4p-3f, 0x1.43b73ep-2f, -0x1.0ef7c4p-1f},
     {-0x1.1c2048p+0f, 0x1.132d6p+0f, -0x1.1e5d02p+0f, -0x1.1c203ap+0f, -0x1.f99c1ep-1f, -0x1.1e5cf4p+0f,
      0x1.f0a938p-1f, 0x1.132d52p+0f, -0x1.1e5cf4p+0f},
 };
@@ -201,6 +205,7 @@ static int32_t tiles_differ(const lmb_kernels *kernels, const float *whole)
 static void judge_nearly_flat(const lmb_kernels *kernels, int i)
 {
     static float whole[SMALL * SMALL], culled[SMALL * SMALL];
+    static uint16_t codes[2][SMALL * SMALL];
     lmb_target t;
     memset(&t, 0, sizeof t);
     memset(whole, 0, sizeof whole);
@@ -208,6 +213,18 @@ static void judge_nearly_flat(const lmb_kernels *kernels, int i)
     t.depth = surface_of(LMB_DEPTH32F, LMB_TILED, SMALL, SMALL, whole);
     CHECK(lmb_draw(&t, kernels, &view, &scene, 1, 1, 0, NULL) == LMB_OK);
     CHECK_MSG(tiles_differ(kernels, whole) == 0, "%s, triangle %d", lmb_kernels_name(kernels), i);
+    for (int plain = 0; plain < 2; ++plain) { /* plain C clamps each depth */
+        const lmb_kernels *by = plain ? lmb_kernels_named("scalar") : kernels;
+        memset(codes[plain], 0, sizeof codes[plain]);
+        t.depth = surface_of(LMB_DEPTH16, LMB_TILED, SMALL, SMALL, codes[plain]);
+        CHECK(lmb_draw(&t, by, &view, &scene, 1, 1, 0, NULL) == LMB_OK);
+        memset(culled, 0, sizeof culled);
+        t.depth = surface_of(LMB_DEPTH32F, LMB_TILED, SMALL, SMALL, culled);
+        CHECK(lmb_draw(&t, by, &view, &scene, 1, 1, 0, NULL) == LMB_OK);
+        CHECK_MSG(memcmp(whole, culled, sizeof whole) == 0, "%s, triangle %d", lmb_kernels_name(kernels), i);
+    }
+    CHECK_MSG(memcmp(codes[0], codes[1], sizeof codes[0]) == 0, "%s, triangle %d", lmb_kernels_name(kernels), i);
+    memset(culled, 0, sizeof culled);
 #if LMB_CULLING
     static float farthest[SMALL_TILES + 15];
     const lmb_culling culling = {farthest, NULL, SMALL_TILES + 15, 0};

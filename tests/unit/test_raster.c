@@ -935,6 +935,39 @@ static int codes_differ(const lmb_kernels *kernels, const lmb_kernels *plain, in
     return wrong;
 }
 
+/* Rows of tiles that are far apart, as in surfaces larger than caches: the same pixels. */
+static void test_distant_rows(void)
+{
+    enum { ROW = (1 << 20) / 64 * 64, ROWS = (TALL + 7) / 8 };
+    static const int32_t formats[3][2] = {{LMB_DEPTH32F, LMB_FORMAT_NONE}, {LMB_DEPTH32F, LMB_ID32},
+                                          {LMB_DEPTH16, LMB_FORMAT_NONE}};
+    const int32_t all[4] = {0, 0, WIDE, TALL};
+    void *memory[2] = {calloc(ROWS, ROW), calloc(ROWS, ROW)}; /* most pages are never touched */
+    test_rng r = {17};
+    for (int32_t i = 0; lmb_kernels_at(i) != NULL; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            random_soup(&r, CAP, 5.0f, 12.0f);
+            for (int at = 0; at < 9 * CAP; at += 9) { /* all so small that a batch draws them together */
+                for (int c = 3; c < 9; ++c) {
+                    st.positions[at + c] = st.positions[at + c % 3] + test_uniform(&r, -0.6f, 0.6f);
+                }
+            }
+            set_wide_view(k == 0);
+            lmb_target near = window_of(0, formats[k][0], formats[k][1], LMB_TILED, all), far = near;
+            far.depth.data = memory[0];
+            far.id.data = near.id.data != NULL ? memory[1] : NULL;
+            far.depth.stride_bytes = far.id.stride_bytes = ROW;
+            lmb_surface_clear(&far.depth);
+            lmb_surface_clear(&far.id);
+            CHECK(lmb_draw(&near, lmb_kernels_at(i), &st.view, &st.scene, 1, CAP, 0, NULL) == LMB_OK);
+            CHECK(lmb_draw(&far, lmb_kernels_at(i), &st.view, &st.scene, 1, CAP, 0, NULL) == LMB_OK);
+            CHECK_MSG(window_differs(&near, &far) == 0, "%s, formats %d", lmb_kernels_name(lmb_kernels_at(i)), k);
+        }
+    }
+    free(memory[0]);
+    free(memory[1]);
+}
+
 /* A wall on the near plane has depth 1, so its code must be 65535 even if scale and bias round up to 65536. */
 static void test_code_of_one(const lmb_kernels *kernels, const lmb_kernels *plain, float far_m)
 {
@@ -1422,6 +1455,7 @@ void test_raster(void)
     test_wall_z();
     test_windows();
     test_codes();
+    test_distant_rows();
     test_ranges();
     test_culling();
     test_bad_vertices();
