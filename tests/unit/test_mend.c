@@ -97,11 +97,26 @@ static void test_passes(void)
     }
 }
 
+/* Pixels outside the picture stay as they are. */
+static void test_outside(void)
+{
+    wall w;
+    for (int outside = 0; outside < 2; ++outside) {
+        build(&w, vec3(0, 0, 1));
+        w.view.frame_width = LMB_TILE - outside;
+        w.found.hit = ~((uint64_t)1 << 31); /* the last pixel of a row */
+        w.tile.id[31] = 0;
+        mend(&w);
+        CHECK((w.tile.id[31] != 0) == !outside && (w.found.hit >> 31 & 1) == (uint64_t)!outside);
+    }
+}
+
 void test_mend(void)
 {
     test_near_by();
     test_edge_on();
     test_passes();
+    test_outside();
 }
 
 #else

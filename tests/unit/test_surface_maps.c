@@ -186,6 +186,28 @@ static void test_metal(void)
     check_metal(16, base * (1.0 - metallic), 0.04 + (base - 0.04) * metallic, 0.5 * metallic);
 }
 
+/* Pixels of a triangle that the scene does not have, as in a tile of another scene, get no metal and no base colour. */
+static void test_missing_triangle(void)
+{
+    const lmb_view v = look(vec3(0, 0, 1), vec3(0, 0, 0), 90, FRAME);
+    lmb_target t = target_of(LMB_DEPTH32F, FRAME, depth_memory, id_memory);
+    lmb_tile *tile = &scratch.tile;
+    int pixels[2] = {0, 0}, good = 0;
+    make_metal(1.0f);
+    world_draw(&t, &v, 0);
+    CHECK(lmb_resolve_tile(tile, picked_kernels(), &v, &world.scene, &t, 16, FRAME - 24) == LMB_OK);
+    world.mesh[0].vertex_count = 3; /* of the second triangle's vertices none */
+    CHECK(lmb_glossy_tile(&glossy, tile, &v, &world.scene) == 1);
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const int missing = tile->id[k] == 2;
+        ++pixels[missing];
+        good += fabs((double)glossy.specular[0][k] - (missing ? 0.04 : 0.8)) < 1e-5 &&
+                fabs((double)glossy.alpha2[k] - (missing ? 1e-4 : 0.0016)) < 1e-5;
+    }
+    CHECK_MSG(pixels[0] > 8 && pixels[1] > 8 && good == LMB_TILE_PIXELS, "%d and %d pixels, %d good", pixels[0],
+              pixels[1], good);
+}
+
 /* Elements reflect only with the non-metal part: the right half. */
 static void test_metal_elements(void)
 {
@@ -251,6 +273,7 @@ void test_surface_maps(void)
     check_elements(LMB_TRILINEAR, 0.01);
     test_small();
     test_metal();
+    test_missing_triangle();
     test_metal_elements();
     test_checked();
     test_own_light();
