@@ -3,7 +3,7 @@
 
 #include "../world.h"
 
-enum { FRAME = 48, MAP = 128, FACES = 1, ELEMENTS = 64, BVH = 64, TREE = MAP / 4, SIDES = 12 };
+enum { FRAME = 48, MAP = 128, FACES = 1, ELEMENTS = 64, BVH = 2048, TREE = MAP / 4, SIDES = 12 };
 
 #include "../bounce_frame.h"
 
@@ -14,7 +14,7 @@ void test_facets(void);
 static uint8_t colours[3 * WORLD_TRIANGLES][4], texel[4];
 static float plain[FRAME * FRAME * 3];
 
-enum { BY_ALBEDO, BY_COLOURS, BY_TEXTURE };
+enum { BY_ALBEDO, BY_COLOURS, BY_TEXTURE, BY_NEEDLES };
 enum { LEVEL = 64 /* linear */, CODE = 137 /* sRGB */ };
 
 /* A column on a floor, in a spot from the side; the floor's albedo is `albedo`, LEVEL or CODE. */
@@ -31,6 +31,13 @@ static void draw_column(int by, double albedo)
         world_triangle(p, add3(p, up), add3(q, up));
         world_triangle(p, add3(q, up), q);
     }
+    for (int i = 0; i < 1900 && by == BY_NEEDLES; ++i) { /* around the column: three points in a line each */
+        const float a = (float)(2.0 * PI * i / 1900);
+        const lmb_vec3 at = vec3(floorf(440.0f * cosf(a)) / 1024.0f, 0.0078125f * (float)(i % 8 + 1),
+                                 floorf(440.0f * sinf(a)) / 1024.0f),
+                       step = vec3((float)(i % 16 - 8) / 128.0f, (float)(i % 5) / 128.0f, (float)(i % 11 - 5) / 128.0f);
+        world_triangle(at, add3(at, mul3(step, 3)), add3(at, step));
+    }
     memset(colours, by == BY_COLOURS ? LEVEL : 255, sizeof colours);
     memset(texel, CODE, sizeof texel);
     texel[3] = 255;
@@ -38,7 +45,7 @@ static void draw_column(int by, double albedo)
     world.texture.width = world.texture.height = world.texture.levels = 1;
     world.texture.filter = LMB_NEAREST;
     for (int c = 0; c < 3; ++c) {
-        world.material[0].albedo[c] = by == BY_ALBEDO ? (float)albedo : 1.0f;
+        world.material[0].albedo[c] = by == BY_ALBEDO || by == BY_NEEDLES ? (float)albedo : 1.0f;
     }
     CHECK(world_end() == LMB_OK);
     const lmb_light light = spot(vec3(2.5f, 2.0f, 1.5f), vec3(-2.5f, -1.7f, -1.5f), 10, 40);
@@ -68,10 +75,26 @@ static void check_albedo(int by, double albedo)
     CHECK_MSG(mean > 0.0 && worst < 0.001 * mean, "albedo by %d: %g apart, mean %g", by, worst, mean);
 }
 
+/* Triangles without area that show in the map, because of rounding to pixels, are no facets; the light stays. */
+static void check_needles(void)
+{
+    double sum[2] = {0.0, 0.0};
+    int under = 0;
+    for (int with = 0; with < 2; ++with) {
+        draw_column(with ? BY_NEEDLES : BY_ALBEDO, 0.5);
+        for (int i = 0; i < COUNT(picture); ++i) {
+            under += !(picture[i] >= 0.0f);
+            sum[with] += (double)picture[i];
+        }
+    }
+    CHECK_MSG(under == 0 && sum[0] > 0.0 && fabs(sum[1] / sum[0] - 1.0) < 0.02, "%g, with needles %g", sum[0], sum[1]);
+}
+
 void test_facets(void)
 {
     check_albedo(BY_COLOURS, LEVEL / 255.0);
     check_albedo(BY_TEXTURE, pow((CODE / 255.0 + 0.055) / 1.055, 2.4));
+    check_needles();
 }
 
 #else

@@ -271,6 +271,42 @@ static void alike_blocks_are_joined(void)
     CHECK_MSG(flux > 0.94 * sent && flux < 1.0 * sent, "%g W of %g", flux, sent);
 }
 
+/* A map with an odd number of blocks each way, of 8 texels: at its far edges pairs of blocks are cut off. The points
+ * have all light of the texels. */
+static void odd_blocks(void)
+{
+    enum { SIZE = 136, SIDE = SIZE / 8 };
+    const lmb_light light = sun(vec3(0, -1, 0));
+    double flux = 0.0, want = 0.0;
+    uint32_t last = 0;
+    world_begin(0.6f, 0.6f, 0.6f);
+    world_quad(vec3(0, 0, 0), mul3(Z, 1), mul3(X, 1));
+    CHECK(world_end() == LMB_OK);
+    world.scene.lights = &light;
+    world.scene.light_count = 1;
+    memset(live_memory, 0x5a, sizeof live_memory);
+    CHECK(lmb_live_init(&live, 1, SIDE, 0, live_memory, sizeof live_memory) == LMB_OK);
+    CHECK(lmb_shadow_map_init(&map, &light, &world.scene, SIZE, LMB_ID32, map_memory, sizeof map_memory) == LMB_OK);
+    lmb_shadow_map_clear(&map);
+    CHECK(lmb_shadow_map_draw(&map, picked_kernels(), &world.scene, 1, 2, NULL) == LMB_OK);
+    CHECK(lmb_live_collect(&live, picked_kernels(), &tile, &world.scene, 0, &map, 0, 0, 0, SIZE / LMB_TILE) == LMB_OK);
+    live.faces = 1;
+    CHECK(lmb_live_build(&live, &world.scene) == LMB_OK);
+    for (uint32_t i = 0; i < live.points; ++i) {
+        const lmb_live_point *p = &live.sorted[i];
+        CHECK(p->column < SIDE && p->row < SIDE && (p->wide == 1 || (p->column + 2 <= SIDE && p->row + 2 <= SIDE)));
+        last += p->column == SIDE - 1 || p->row == SIDE - 1;
+        flux += (double)p->flux[0];
+    }
+    for (int32_t i = 0; i < SIZE * SIZE; ++i) {
+        float power[3];
+        lmb_light_texel_power(power, &light, &map, 0, i % SIZE, i / SIZE);
+        want += live_id(&live.face[0].id, i % SIZE, i / SIZE) != 0 ? 0.6 * (double)power[0] : 0.0;
+    }
+    CHECK_MSG(last > SIDE && want > 0.0 && fabs(flux / want - 1.0) < 0.02, "%u at the edges, %g W of %g",
+              (unsigned)last, flux, want);
+}
+
 /* Blocks that show a post and the floor far behind it give a point for each quarter. The quarters share the light, and
  * floor beside the post gets the post's light whichever texel a hash selects. */
 static void quarters_of_blocks(void)
@@ -412,6 +448,56 @@ static void kept_parts(void)
     CHECK(lmb_live_receive_again(alone[0], NULL, &scratch, &live, &bvh, &at[0]) == LMB_ERR_ARG);
 }
 
+/* If nearly all nodes count as near, the cut is full: such points are counted, and their light stays about right. */
+static void full_cuts(void)
+{
+    const lmb_light lights[2] = {spot(vec3(0.6f, 1.8f, 0.5f), vec3(-0.5f, -1, -0.4f), 20, 35),
+                                 point_light(vec3(-0.6f, 1.6f, 0.2f))};
+    test_rng r = {29};
+    room_with_table();
+    light_world(lights, 2);
+    live.split = 256.0f;
+    scratch.full = 0;
+    const errors sum = errors_of(10, vec3(-0.7f, 1.5f, -0.7f), 0, &r);
+    CHECK_MSG(scratch.full > 5 && sum.rms < 0.02, "%u full, rms %.4f", (unsigned)scratch.full, sum.rms);
+    scratch.full = 0;
+}
+
+/* Needles of three points in a line have no area, but after rounding to pixels they may cover some. They send no light
+ * and do not disturb the rest. */
+static void needles_without_area(void)
+{
+    const lmb_light light = spot(vec3(0, 2, 0), vec3(0, -1, 0), 34, 35);
+    double flux[2] = {0.0, 0.0};
+    for (int with = 0; with < 2; ++with) {
+        test_rng r = {41};
+        uint32_t shown = 0, needles = 0;
+        world_begin(0.6f, 0.6f, 0.6f);
+        world_quad(vec3(0, 0, 0), mul3(Z, 2), mul3(X, 2));
+        for (int i = 0; i < 4000 && with; ++i) {
+            const float x = (float)((int32_t)(test_random(&r) % 2048) - 1024) / 1024.0f,
+                        z = (float)((int32_t)(test_random(&r) % 2048) - 1024) / 1024.0f;
+            const lmb_vec3 at = vec3(x, 0.0078125f, z), step = vec3(0.0625f, 0, (float)(i % 64 - 32) / 512.0f);
+            world_triangle(at, add3(at, mul3(step, 3)), add3(at, step));
+        }
+        light_world(&light, 1);
+        live.split = 16.0f;
+        for (uint32_t i = 0; i < live.points; ++i) {
+            flux[with] += (double)live.sorted[i].flux[0];
+            needles += live.sorted[i].id > 2;
+        }
+        for (int32_t i = 0; i < MAP * MAP; ++i) {
+            shown += live_id(&live.face[0].id, i % MAP, i / MAP) > 2;
+        }
+        CHECK_MSG((shown > 20) == with && needles == 0, "%u texels, %u points", (unsigned)shown, (unsigned)needles);
+        lmb_live_receiver at = {vec3(0, 0.1f, 0), X, X, 0, 1e-6f, vec3(1, 1, 0), 0.0f};
+        float light_at[3];
+        receive(light_at, picked_kernels(), &at, 1);
+        CHECK(light_at[0] > 0.0f && light_at[0] < 1.0f);
+    }
+    CHECK_MSG(fabs(flux[1] / flux[0] - 1.0) < 0.02, "%g W of %g", flux[1], flux[0]);
+}
+
 /* Close above a wide floor, evenly lit from above: at any height a wall receives half of the floor's light, although
  * the points are far apart. */
 static void near_field(void)
@@ -534,6 +620,31 @@ static void same_bytes(void)
         wrong += differing_backends(&at);
     }
     CHECK_MSG(wrong == 0, "%d differ", wrong);
+}
+
+/* Found by search: receivers for which rounding puts one of the picks past the sum of all nodes. The pick gets the last
+ * node, so the light is that of places close by. */
+static void rounding_overshoots(void)
+{
+    const lmb_light lights[2] = {spot(vec3(0.6f, 1.8f, 0.5f), vec3(-0.5f, -1, -0.4f), 20, 35),
+                                 point_light(vec3(-0.6f, 1.6f, 0.2f))};
+    static const uint64_t found[2] = {15612772849295518238u, 11767705658089006050u};
+    room_with_table();
+    light_world(lights, 2);
+    live.split = 1.0f;
+    live.strata = LMB_LIVE_STRATA;
+    for (int i = 0; i < 2; ++i) {
+        test_rng r = {found[i]};
+        lmb_live_receiver at = place_on(test_random(&r) % world.count, vec3(-0.7f, 1.5f, -0.7f), &r);
+        float here[3], beside[3];
+        at.normal = normalize3(add3(at.face, vec3(0.2f, 0.1f, -0.1f)));
+        CHECK(differing_backends(&at) == 0);
+        receive(here, picked_kernels(), &at, 1);
+        at.position = add3(at.position, vec3(1e-6f, 1e-6f, 1e-6f));
+        receive(beside, picked_kernels(), &at, 1);
+        CHECK_MSG(here[0] > 0.0f && fabsf(here[0] / beside[0] - 1.0f) < 1e-3f, "%g, %g beside", (double)here[0],
+                  (double)beside[0]);
+    }
 }
 
 /* --- steady light ------------------------------------------------------------------------------------------------- */
@@ -1047,11 +1158,15 @@ void test_live(void)
     sums_and_shares();
     area_counts_once();
     alike_blocks_are_joined();
+    odd_blocks();
     quarters_of_blocks();
     crowded_blocks_keep_their_light();
     many_small_faces();
     kept_parts();
     near_field();
+    full_cuts();
+    rounding_overshoots();
+    needles_without_area();
     under_a_sheet_is_dark();
     behind_a_thin_wall_is_dark();
     same_bytes();
