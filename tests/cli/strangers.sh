@@ -81,6 +81,26 @@ says 1 compare "$odd" photo.pfm
 says 2 compare photo.pfm photo.pfm --max "mean=$text"
 says 0 lambent-bench "$odd.obj" --size 24x24 --shadow-map 64 --sweep tree=8,16 --runs 1 --truth "$odd.pfm" -v -o "$odd-table" --svg "$odd.svg"
 clean "the tables" "$odd-table.html" "$odd-table.csv" "$odd-table.json" "$odd.svg"
+
+# Markup: SVG and HTML show the name of a file in labels and titles, with &, <, > and quotes escaped.
+plain=${odd%%"$(printf '\nq')"*} # no line break: a break in a name cleans the line breaks around it, too
+cp "$odd.lmt" "$plain<b>&.lmt"
+"$TOOL" bake "$odd.obj" -q --elements 256 --receivers 400 -o "$plain<i>&.lmt"
+status 0 lambent-bench "$odd.obj" --size 24x24 --shadow-map 64 --sweep "transfer=$plain<b>&.lmt,$plain<i>&.lmt" --runs 1 --breakdown 0 -q -o marked --svg marked.svg
+clean "markup" marked.svg marked.html marked.csv marked.json
+for page in marked.svg marked.html; do
+    check "$page has both names, escaped" sh -c 'grep -q "transfer o?]0;x?y?*z?*&lt;b&gt;&amp;\.lmt" "$1" &&
+        grep -q "transfer o?]0;x?y?*z?*&lt;i&gt;&amp;\.lmt" "$1" && ! grep -q "<b>&\|<i>&" "$1"' sh $page
+done
+mkdir "peers$odd"
+printf '#!/bin/sh\nprintf "\033]0;x\007,$1,cpu_min_ms=9\\n"\n' >"peers$odd/fine"
+cp "peers$odd/fine" "peers$odd/odd$odd" && chmod +x "peers$odd/"*
+for form in "--html $plain.html" "--json --html $plain.html"; do
+    says 0 lambent-bench raster fill-depth-pass --seconds 0.01 --peers "peers$odd" --data "$odd" $form
+    clean "raster --html" "$plain.html"
+done
+says 2 lambent-bench raster "$odd" --html "$plain.html"
+says 1 lambent-bench raster bunny --data "$odd" --html "$plain.html"
 "$TOOL" merge "$odd" -o joined.png >out.txt 2>err.txt && fail "merge: no slice, and exit status 0" || pass
 clean "merge's notes" out.txt err.txt
 says 2 "$odd"

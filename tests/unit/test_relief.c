@@ -164,8 +164,25 @@ static void overlaps(const stage *s)
         }
         copy[offset[i]] = was;
     }
+    const uint32_t size[] = {12 * copy[6], 4 * copy[6], 4 * copy[6], 6 * copy[7]};
+    for (int i = 0; i < COUNT(size); ++i) { /* a word of another array */
+        const uint32_t was = copy[8 + i];
+        for (int k = 0; k < COUNT(size); ++k) {
+            copy[8 + i] = (k == i ? records + 4 * LMB_RELIEF_VIEW_WORDS * copy[4] : copy[8 + k] + size[k]) - 4;
+            CHECK_MSG(lmb_relief_open(&r, copy, s->file.size) == LMB_ERR_FORMAT, "word %d: the end of %d", 8 + i, 8 + k);
+            copy[8 + i] = (k == i ? copy[35] : copy[8 + k]) + 4 - size[i];
+            CHECK_MSG(lmb_relief_open(&r, copy, s->file.size) == LMB_ERR_FORMAT, "word %d: the start of %d", 8 + i, 8 + k);
+        }
+        copy[8 + i] = was;
+    }
     copy[10] = 0; /* without colours the offset is 0 */
     CHECK(lmb_relief_open(&r, copy, s->file.size) == LMB_OK);
+    copy[9] += 4 * copy[6]; /* the normals take the place of the colours, and two triangles the place before them */
+    copy[7] = 2;
+    copy[11] = copy[9] - 12;
+    CHECK(lmb_relief_open(&r, copy, s->file.size) == LMB_OK);
+    copy[11] += 4;
+    CHECK(lmb_relief_open(&r, copy, s->file.size) == LMB_ERR_FORMAT);
     copy[9] = copy[8];
     turn_words((uint8_t *)copy + records, (size_t)copy[4] * LMB_RELIEF_VIEW_WORDS, 4);
     turn_words((uint8_t *)copy + 4, LMB_RELIEF_HEADER_WORDS - 1, 4);

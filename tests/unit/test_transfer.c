@@ -453,6 +453,7 @@ static void bad_words(void)
         {LMB_TRANSFER_COARSE_LINKS, 0, SMALL_LINK(SMALL_NODES, 1), "no such node"},
         {LMB_TRANSFER_COARSE_LINKS, 4, SMALL_LINK(1, 28672), "weights over the sum"},
     };
+    static uint32_t longer[SMALL_WORDS + 1];
     lmb_transfer good, t;
     CHECK(lmb_transfer_open(&good, file, sizeof file) == LMB_OK);
     for (int i = 0; i < COUNT(bad); ++i) {
@@ -462,6 +463,9 @@ static void bad_words(void)
                   bad[i].section, bad[i].word, bad[i].what);
         CHECK(t.section[0] == NULL && lmb_transfer_light_bytes(&t) == 0);
     }
+    memcpy(longer, file, sizeof file); /* a word that no section has */
+    longer[2] = sizeof longer;
+    CHECK(lmb_transfer_open(&t, longer, sizeof longer) == LMB_ERR_FORMAT);
     memcpy(copy, file, sizeof file); /* the maximum that is allowed */
     copy[good.section[LMB_TRANSFER_LINKS] - file + 1] = SMALL_LINK(2, -16383);
     CHECK(lmb_transfer_open(&t, copy, sizeof copy) == LMB_OK);
