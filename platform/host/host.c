@@ -32,6 +32,7 @@ void host_sleep(double seconds) { Sleep((DWORD)(1e3 * seconds)); }
 int host_watched(void) { return _isatty(2); }
 #else
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 static int make_folder(const char *path) { return mkdir(path, 0777); }
@@ -71,7 +72,7 @@ static const char blank_line[] = "\r" BLANKS BLANKS "\r";
 void host_take_streams(void) {}
 void host_end_cleanly(void (*clean)(void)) { (void)clean; }
 void host_hold_signals(int is_held) { (void)is_held; }
-void host_wipe_line(void) { fputs(blank_line, stderr); }
+void host_print_now(const char *text, size_t size) { (void)!_write(2, text, (unsigned)size); }
 #else
 static const int ends[] = {SIGINT, SIGTERM, SIGHUP};
 static void (*clean_up)(void);
@@ -117,8 +118,18 @@ void host_hold_signals(int is_held)
     sigprocmask(is_held ? SIG_BLOCK : SIG_UNBLOCK, &all, NULL);
 }
 
-void host_wipe_line(void) { (void)!write(STDERR_FILENO, blank_line, sizeof blank_line - 1); }
+void host_print_now(const char *text, size_t size)
+{
+    struct pollfd err;
+    err.fd = STDERR_FILENO;
+    err.events = POLLOUT;
+    if (poll(&err, 1, 0) == 1 && err.revents == POLLOUT) {
+        (void)!write(STDERR_FILENO, text, size);
+    }
+}
 #endif
+
+void host_wipe_line(void) { host_print_now(blank_line, sizeof blank_line - 1); }
 
 /* Reads Linux's list of processors: `model name : NAME` once for each. */
 void host_processor(char *out, int size)

@@ -8,8 +8,6 @@
 #endif
 #include "limit.h"
 
-#include <string.h>
-
 #include "host.h"
 
 #define LONGEST_S 60.0 /* longest single sleep; a signal may end it early */
@@ -26,7 +24,6 @@ static void watch(void);
 
 #include <windows.h>
 
-#include <io.h>
 #include <process.h>
 #include <stdlib.h>
 
@@ -50,8 +47,6 @@ static int start(void)
     return thread != NULL;
 }
 
-void limit_tell(const char *line) { (void)!_write(2, line, (unsigned)strlen(line)); }
-
 #else
 
 #include <pthread.h>
@@ -73,8 +68,6 @@ static int start(void)
     pthread_t thread;
     return pthread_create(&thread, NULL, begin, NULL) == 0 && pthread_detach(thread) == 0;
 }
-
-void limit_tell(const char *line) { (void)!write(STDERR_FILENO, line, strlen(line)); }
 
 #endif
 

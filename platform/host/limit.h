@@ -13,7 +13,4 @@ void limit_hold(int is_held);
 /* limit_end: the program has finished; from now on the limit no longer ends it. */
 void limit_end(void);
 
-/* limit_tell: writes a line to stderr without the buffers that other threads may hold. */
-void limit_tell(const char *line);
-
 #endif

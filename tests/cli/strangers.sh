@@ -204,19 +204,55 @@ late() {
     check "lambent $1: ends soon" test $(($(date +%s) - begun)) -lt 20
     check "lambent $1: leaves nothing" test -z "$(ls -A late)"
 }
-late render demo --size 2000x2000 --quality best -q -o late/x.png --stats late/x.json
+# needles.obj: needles through one point; holes.gltf: masked quads. Either takes minutes at these settings.
+awk 'BEGIN { srand(1); for (i = 0; i < 20000; ++i) { x = 2 * rand() - 1; y = 2 * rand() - 1; z = 2 * rand() - 1
+    printf "v %g %g %g\nv %g %g %g\nv %g %g %g\nf -1 -2 -3\n", x, y, z, x + 0.001, y, z + 0.001, -x, -y, -z } }' >needles.obj
+{
+    printf '{"asset":{"version":"2.0"},"meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1},"material":0}]}],'
+    printf '"materials":[{"alphaMode":"MASK","doubleSided":true,"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],'
+    printf '"textures":[{"source":0}],"images":[{"uri":"data:image/png;base64,%s"}],' "iVBORw0KGgoAAAANSUhEUgAAAAIAAAACCAYAAABytg0kAAAAE0lEQVR42mP4//8/IxD/Z4AyGAF7qgz3Qa70rQAAAABJRU5ErkJggg=="
+    printf '"buffers":[{"byteLength":120,"uri":"data:application/octet-stream;base64,%s"}],' "AACAvwAAgL8AAAAAAACAPwAAgL8AAAAAAACAPwAAgD8AAAAAAACAvwAAgL8AAAAAAACAPwAAgD8AAAAAAACAvwAAgD8AAAAAAAAAAAAAAAAAABBBAAAAAAAAEEEAABBBAAAAAAAAAAAAABBBAAAQQQAAAAAAABBB"
+    printf '"bufferViews":[{"buffer":0,"byteLength":72},{"buffer":0,"byteOffset":72,"byteLength":48}],"accessors":['
+    printf '{"bufferView":0,"componentType":5126,"count":6,"type":"VEC3"},{"bufferView":1,"componentType":5126,"count":6,"type":"VEC2"}],'
+    awk 'BEGIN { printf "\"nodes\":["; for (i = 0; i < 5000; ++i) printf "%s{\"mesh\":0,\"translation\":[0,0,%g]}", i ? "," : "", i / 5000; print "]}" }'
+} >holes.gltf
+late render needles.obj --size 2000x2000 --quality best -q -o late/x.png --stats late/x.json
+late render holes.gltf --size 2000x2000 --quality best -q -o late/x.png
+late explain needles.obj --size 4000x4000 --quality best --pixel 9,9 -q
+late mix --photo photo.pfm --depth wall.pfm --intrinsics 30,30,11.5,11.5 --object needles.obj --scale 0.2 --at 8,12 --voxels 9 -q -o late/x.png
 late play demo --size 64x48 --quality draft --frames 100000 -q -o late/f%06d.png
-late bake demo -q -o late/x.lmt
+late bake holes.gltf --quality best -q -o late/x.lmt
 late bake demo --to lightmap -q -o late/x.glb
 late plan demo --size 2000x2000 --budget error=0.001
 late capture demo --at 0.5,1,0.5 --faces 512 -q -o late/x.hdr --ground late/g.hdr
-late relight --world demo --object demo --size 4000x4000 --samples 16 -q -o late/x.png
-late relief bake tent.obj --size 512 --views 48 -q -o late/x.lmr
+late relight --world demo --object needles.obj --size 4000x4000 --samples 16 -q -o late/x.png
+late relief bake needles.obj --size 512 --views 48 -q -o late/x.lmr
 late lambent-bench demo --size 800x600 -q -o late/table
 mkfifo pipe.glb
 late info pipe.glb
 late pack pipe.glb -q -o late/x.lmp
 late compare pipe.glb photo.pfm
+mkfifo endless.obj
+yes 'v 0 0 0' >endless.obj 2>/dev/null &
+late render endless.obj -q -o late/x.png
+# Nobody reads stdout and stderr, a pipe that is full.
+mkfifo full
+exec 9<>full
+dd if=/dev/zero bs=4096 count=4096 >&9 2>/dev/null &
+filler=$!
+sleep 0.3
+for quiet in -q -v; do
+    rm -rf late && mkdir late
+    "$TOOL" play demo --size 32x24 --quality draft --frames 100000 $quiet -o late/f%06d.png --time-limit 0.3 >&9 2>&9 &
+    player=$!
+    for second in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15; do kill -0 $player 2>/dev/null && sleep 1; done
+    kill -9 $player 2>/dev/null
+    wait $player
+    check "play $quiet ends though nobody reads its output" test $? -eq 1
+    check "play $quiet into a full pipe leaves nothing" test -z "$(ls -A late)"
+done
+kill $filler
+exec 9>&-
 status 0 render demo $small --time-limit 1e5 -q -o in-time.png
 status 0 render demo $small -q -o plain.png
 check "a limit changes no byte" cmp in-time.png plain.png

@@ -96,7 +96,7 @@ static void end_over(void)
     file_drop_aside();
     file_drop_written();
     progress_wipe();
-    limit_tell(over_line);
+    host_print_now(over_line, strlen(over_line));
 }
 
 static const char *verb_name; /* "" if the program has no verbs */
