@@ -165,6 +165,10 @@ for verb in "render in/m.gltf $few -o x.png" "plan in/m.gltf --size 8x8" "play i
     status 1 $verb --only-here
     said "no file in or below its folder (--only-here)"
 done
+for subject in "in/m.gltf --size 8x8" "relight --world demo --object in/m.gltf --size 8x8" "relief in/m.gltf --size 8" "mix $seen --truth photo.pfm --object in/m.gltf"; do
+    status 1 lambent-bench $subject --runs 1 --only-here
+    said "no file in or below its folder (--only-here)"
+done
 for part in color.pfm depth.pfm; do cp wall.pfm "in/f.$part" && cp wall.pfm "out/f.$part"; done
 printf '{"fx": 30, "fy": 30, "cx": 11.5, "cy": 11.5, "depth_unit_mm": 1000, "camera_to_world": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]}' >in/f.json
 cp in/f.json out/f.json

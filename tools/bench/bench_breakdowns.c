@@ -115,6 +115,7 @@ static int add(sweep *s, int point, image *finest, const uint8_t *counts, report
     const size_t pixels = (size_t)s->truth.picture.width * (size_t)s->truth.picture.height;
     chain c;
     memset(&c, 0, sizeof c);
+    memset(l, 0, sizeof *l); /* the last setting may have left rows, but no error that they share */
     snprintf(l->name, sizeof l->name, "%s", s->b->point[point].name);
     const int ok = follow(&c, l, s, point, finest, r);
     s->b->breakdowns += ok && bench_breakdown_sum(l, c.picture, counts, pixels);

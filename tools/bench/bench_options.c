@@ -96,6 +96,7 @@ static const option_row output_rows[] = {
     {.name = "--quiet", .brief = "-q", .kind = OPTION_QUIET, AT(is_quiet), .help = "no table and no progress"},
     {.name = "--verbose", .brief = "-v", .kind = OPTION_VERBOSE, AT(is_verbose),
      .help = "print each setting's command before it is measured"},
+    OPTION_ONLY_HERE,
     OPTION_TIME_LIMIT,
     OPTION_ASK,
     {.kind = OPTION_TITLE,
