@@ -141,8 +141,7 @@ static int load(statue *s, report *r)
     static model_notes notes;
     memset(&notes, 0, sizeof notes);
     return model_load_as(&s->loaded, s->model, &s->choice, &notes, r) &&
-           relief_flatten(&s->mesh, &s->loaded.scene, r) &&
-           (lmb_scene_triangles(&s->loaded.scene) > 0 || report_fail(r, "%s: nothing to bake: no triangles", s->model));
+           relief_flatten(&s->mesh, &s->loaded.scene, r);
 }
 
 static int bake(statue *s, report *r)

@@ -152,7 +152,7 @@ static float shape_of(const lmb_scene *s, const lmb_view *v, lmb_vec3 centre)
     return best;
 }
 
-static int shows_any(const lmb_scene *s)
+static int has_drawn(const lmb_scene *s)
 {
     lmb_triangle t;
     uint32_t id = lmb_scene_triangles(s);
@@ -162,17 +162,27 @@ static int shows_any(const lmb_scene *s)
     return id > 0;
 }
 
+int view_any(const lmb_scene *scene, const char *name, report *r)
+{
+    const lmb_vec3 lo = scene->bounds_min, hi = scene->bounds_max;
+    if (lmb_scene_triangles(scene) == 0) {
+        return report_fail(r, "%s: nothing to see: no triangles; `lambent info` lists the contents", name);
+    }
+    if (!has_drawn(scene)) {
+        return report_fail(r, "%s: nothing to see: each triangle has a corner that is not finite or 2^20 m away", name);
+    }
+    return hi.x > lo.x || hi.y > lo.y || hi.z > lo.z ||
+           report_fail(r, "%s: nothing to see: all triangles are in one point", name);
+}
+
 int view_frame(lmb_view *v, view_options *o, const lmb_scene *scene, const char *name, report *r)
 {
     const lmb_vec3 lo = scene->bounds_min, hi = scene->bounds_max, to_eye = direction_to_eye(scene);
     const lmb_vec3 centre = {(lo.x + hi.x) * 0.5f, (lo.y + hi.y) * 0.5f, (lo.z + hi.z) * 0.5f};
     const float size = fmaxf(hi.x - lo.x, fmaxf(hi.y - lo.y, hi.z - lo.z));
     const lmb_vec3 from = {centre.x + size * to_eye.x, centre.y + size * to_eye.y, centre.z + size * to_eye.z};
-    if (!shows_any(scene)) {
-        return report_fail(r, "%s: nothing to see: each triangle has a corner that is not finite or 2^20 m away", name);
-    }
-    if (!(size > 0.0f)) {
-        return report_fail(r, "%s: nothing to see: the scene has no extent", name);
+    if (!view_any(scene, name, r)) {
+        return 0;
     }
     if (lmb_view_look_at(v, from, centre, o->up, FRAME_FOV, 4, 3) == LMB_OK) {
         view_size(o, shape_of(scene, v, centre));

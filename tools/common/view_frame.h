@@ -11,4 +11,7 @@
  * drawn, so they do not count. Returns 1, or 0 with `r` set. Cost: two passes over the triangles. */
 int view_frame(lmb_view *out, view_options *o, const lmb_scene *scene, const char *name, report *r);
 
+/* view_any: returns 1 if the scene has triangles that are drawn and are not all in one point, or 0 with `r` set. */
+int view_any(const lmb_scene *scene, const char *name, report *r);
+
 #endif

@@ -379,9 +379,6 @@ static int load(mix_thing *t, const placements *p, const list_row *row, report *
         return report_fail(r, "%s: line %d: %s", p->path, (int)row->line, own.text);
     }
     t->path = row->mesh;
-    if (lmb_scene_triangles(&t->object.scene) == 0) {
-        return fail_row(p, row, r, "MESH has no triangles");
-    }
     const model was = j->object;
     j->object = t->object;
     mix_lobes_read(j);

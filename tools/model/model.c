@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "../common/ending.h"
+#include "../common/view_frame.h"
 #include "io_lmp.h"
 #include "io_ply.h"
 #include "mend_normals.h"
@@ -260,7 +261,7 @@ int model_read_as(model *out, const char *path, const model_choice *choice, cons
     return ok;
 }
 
-int model_load_as(model *out, const char *path, const model_choice *choice, model_notes *notes, report *r)
+static int load_file(model *out, const char *path, const model_choice *choice, model_notes *notes, report *r)
 {
     file_bytes file;
     int ok;
@@ -270,6 +271,17 @@ int model_load_as(model *out, const char *path, const model_choice *choice, mode
     ok = model_read_as(out, path, choice, file.data, file.size, notes, r);
     file_free(&file);
     return ok;
+}
+
+int model_load_as(model *out, const char *path, const model_choice *choice, model_notes *notes, report *r)
+{
+    if (!load_file(out, path, choice, notes, r))
+        return 0;
+    if ((!out->motion || lmb_scene_triangles(&out->scene) == 0) && !view_any(&out->scene, path, r)) {
+        model_free(out);
+        return 0;
+    }
+    return 1;
 }
 
 int model_read(model *out, const char *path, const char *scene, const uint8_t *data, size_t size, model_notes *notes,
@@ -282,7 +294,7 @@ int model_read(model *out, const char *path, const char *scene, const uint8_t *d
 int model_load(model *out, const char *path, const char *scene, model_notes *notes, report *r)
 {
     const model_choice choice = {scene, MODEL_COLOURS_SRGB, 0};
-    return model_load_as(out, path, &choice, notes, r);
+    return load_file(out, path, &choice, notes, r);
 }
 
 /* The model owns the materials; only the scene's view of them is const. */

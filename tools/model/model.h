@@ -119,7 +119,8 @@ int model_load(model *out, const char *path, const char *scene, model_notes *not
 int model_read(model *out, const char *path, const char *scene, const uint8_t *data, size_t size, model_notes *notes,
                report *r);
 
-/* The same with more choices, if you need them; NULL: the defaults. */
+/* The same with more choices, if you need them; NULL: the defaults. Only model_load_as refuses a model that shows
+ * nothing (view_any), unless its triangles move. */
 int model_load_as(model *out, const char *path, const model_choice *choice, model_notes *notes, report *r);
 int model_read_as(model *out, const char *path, const model_choice *choice, const uint8_t *data, size_t size,
                   model_notes *notes, report *r);

@@ -133,9 +133,6 @@ static int load(model *out, triangle_mesh *mesh, const char *path, const model_c
     if (!model_load_as(out, path, choice, &notes, r)) {
         return 0;
     }
-    if (lmb_scene_triangles(&out->scene) == 0) {
-        return report_fail(r, "%s: nothing to bake: no triangles", path);
-    }
     return relief_flatten(mesh, &out->scene, r);
 }
 
