@@ -94,11 +94,11 @@ static void plan_bvh(planner *p)
 {
     const lmb_frame *f = &p->r->frame;
     lmb_plan_row *row = &p->out->row[LMB_PLAN_BVH];
+    row->bytes = f->bvh.triangle_cap > 0 ? (uint64_t)lmb_bvh_bytes(f->bvh.triangle_cap) : 0;
     if (!requires_bvh(f)) {
         leave_out(p, LMB_PLAN_BVH, f->show == LMB_SHOW_DIRECT ? LMB_WHY_NOT_SHOWN : LMB_WHY_NOT_ASKED);
         return;
     }
-    row->bytes = (uint64_t)lmb_bvh_bytes(f->bvh.triangle_cap);
     row->op[LMB_OP_BVH] = (double)p->r->triangles;
     if (reuses(p->r, LMB_REUSE_BVH)) {
         row->op[LMB_OP_BVH] = 0.0;
@@ -116,17 +116,43 @@ static double fresh_faces(const lmb_render *r)
     return (double)n;
 }
 
-/* Memory of the tree of single points. */
+/* Memory of live light: the tree of single points, and the sky. */
 static uint64_t live_memory(const lmb_frame *f)
 {
+    uint64_t bytes = 0;
 #if LMB_LIVE
     if (f->gather_step == LMB_GATHER_LIVE && f->live != NULL) {
         const uint32_t lit = lmb_frame_map_faces(f->scene), faces = lit > 0 ? lit : 1;
-        return (uint64_t)lmb_live_bytes(faces, lmb_live_side(faces, f->shadow_map), f->elements.cap);
+        bytes += (uint64_t)lmb_live_bytes(faces, lmb_live_side(faces, f->shadow_map), f->elements.cap) +
+                 sizeof *f->live;
+        if (f->live_sky != NULL) {
+            bytes += (uint64_t)lmb_live_sky_bytes(f->live_sky->sun_cap) + sizeof *f->live_sky;
+        }
     }
 #endif
     (void)f;
-    return 0;
+    return bytes;
+}
+
+/* Memory of the first points, whatever sums them up. */
+static uint64_t points_memory(const lmb_frame *f)
+{
+    uint64_t bytes = 0;
+#if LMB_TRANSFER
+    if (f->transfer != NULL) {
+        bytes += (uint64_t)lmb_transfer_light_bytes(f->transfer);
+        bytes += f->transfer_light.place == NULL
+                     ? 0
+                     : (uint64_t)sizeof(lmb_transfer_place) * f->transfer->count[LMB_TRANSFER_AREAS];
+    }
+#endif
+    if (requires_cut(f)) {
+        bytes += (uint64_t)lmb_tree_bytes(f->tree.face_cap, f->tree.size);
+    } else if (f->points.data != NULL) {
+        bytes += (uint64_t)f->points.cap * sizeof(lmb_point) + sizeof(lmb_groups) +
+                 (uint64_t)f->points.cell_cap * sizeof(uint32_t);
+    }
+    return bytes + live_memory(f);
 }
 
 static void plan_points(planner *p, lmb_why none)
@@ -134,16 +160,13 @@ static void plan_points(planner *p, lmb_why none)
     const lmb_frame *f = &p->r->frame;
     lmb_plan_row *row = &p->out->row[LMB_PLAN_POINTS];
     const double side = (double)f->shadow_map, block = f->grouping.block != 0 ? (double)f->grouping.block : LMB_TILE;
+    row->bytes = points_memory(f);
     if (none != LMB_WHY_RUNS) {
         leave_out(p, LMB_PLAN_POINTS, none);
         return;
     }
     const double faces = reuses(p->r, LMB_REUSE_POINTS) ? 0.0 : fresh_faces(p->r);
     const double points = requires_cut(f) ? (double)f->tree.size * (double)f->tree.size : side * side / (block * block);
-    row->bytes = requires_cut(f) ? (uint64_t)lmb_tree_bytes(f->tree.face_cap, f->tree.size)
-                                 : (uint64_t)f->points.cap * sizeof(lmb_point) + sizeof(lmb_groups) +
-                                       (uint64_t)f->points.cell_cap * sizeof(uint32_t);
-    row->bytes += live_memory(f);
     row->op[LMB_OP_RESOLVED] = faces * side * side;
     row->op[LMB_OP_SUMMED] = faces * points;
     if (faces == 0.0) {
@@ -157,11 +180,11 @@ static void plan_bounces(planner *p, lmb_why none)
     const lmb_render *r = p->r;
     const lmb_frame *f = &r->frame;
     lmb_plan_row *row = &p->out->row[LMB_PLAN_BOUNCES];
+    row->bytes = f->elements.cap > 0 ? (uint64_t)lmb_elements_bytes(f->elements.cap) : 0;
     if (none != LMB_WHY_RUNS || !requires_elements(r)) {
         leave_out(p, LMB_PLAN_BOUNCES, none != LMB_WHY_RUNS ? none : LMB_WHY_NOT_ASKED);
         return;
     }
-    row->bytes = (uint64_t)lmb_elements_bytes(f->elements.cap);
     if (reuses(r, LMB_REUSE_BOUNCES)) {
         leave_out(p, LMB_PLAN_BOUNCES, LMB_WHY_REUSED);
         return;
@@ -170,13 +193,35 @@ static void plan_bounces(planner *p, lmb_why none)
     row->op[LMB_OP_CUTS] = (double)f->elements.cap / LMB_TILE_PIXELS * (double)radiosity_bounces(r);
 }
 
+/* One thread's scratch. */
+static uint64_t scratch_memory(const lmb_frame *f)
+{
+    uint64_t bytes = sizeof(lmb_band_scratch);
+    if (f->scratch == NULL) {
+        return bytes;
+    }
+    if (f->scratch->multisample != NULL) {
+        const lmb_target *eye = &f->scratch->multisample->eye;
+        bytes += sizeof(lmb_multisample) + surface_bytes(&eye->depth) + surface_bytes(&eye->id);
+    }
+    return bytes + (f->scratch->live != NULL ? sizeof(lmb_live_scratch) : 0);
+}
+
+/* Light between gathered pixels. */
+static uint64_t lattice_memory(const lmb_frame *f)
+{
+    return f->gather_step == LMB_GATHER_LIVE && f->show != LMB_SHOW_DIRECT
+               ? (uint64_t)lmb_lattice_bytes(f->view.frame_width, f->view.frame_height)
+               : 0;
+}
+
 /* The tiles' gathers, and their BVH traversals. */
 static void plan_gather(planner *p, lmb_why none)
 {
     const lmb_frame *f = &p->r->frame;
     lmb_plan_row *row = &p->out->row[LMB_PLAN_GATHER], *traversal = &p->out->row[LMB_PLAN_OCCLUSION];
     lmb_hull hull;
-    row->bytes = sizeof(lmb_band_scratch) + (f->samples > 1 ? sizeof(lmb_multisample) : 0);
+    row->bytes = scratch_memory(f) + lattice_memory(f);
     if (none != LMB_WHY_RUNS) {
         leave_out(p, LMB_PLAN_GATHER, none);
         leave_out(p, LMB_PLAN_OCCLUSION, none);

@@ -107,6 +107,7 @@ static int make_kinds(kind *out)
     s = KIND("fixed by bands", &lit), s->quality = LMB_QUALITY_FIXED, s->by_bands = 1, s->points = 700;
     s = KIND("live by bands", &lit), s->gather_step = LMB_GATHER_LIVE, s->by_bands = 1, s->format = LMB_RGB32F;
     s = KIND("live", &lit), s->gather_step = LMB_GATHER_LIVE, s->quality = LMB_QUALITY_DRAFT, s->threads = 2;
+    s = KIND("live, many", &lit), s->gather_step = LMB_GATHER_LIVE, s->many_lights = &many_lights;
     s = KIND("own picture", &lit), s->shadow_map = 32;
     CHECK(lmb_surface_init(&s->out, LMB_RGBA8, WIDE, HIGH, own_picture, sizeof own_picture) == LMB_OK);
     s = KIND("emitting", &emitting), s->elements = 64;
@@ -234,6 +235,28 @@ static void test_block(const kind *k)
     CHECK_MSG(hash[0] == hash[1] && hash[0] != 0, "%s", k->name);
 }
 
+/* The bytes of a plan, which counts one thread's scratch, are those of the block and of a picture outside it. */
+static void test_planned_bytes(const kind *k)
+{
+#if LMB_PLAN
+    static lmb_frame f;
+    static lmb_plan plan;
+    lmb_frame_settings s = k->settings;
+    s.threads = 1;
+    const size_t bytes = lmb_frame_bytes(&s);
+    const double all = (double)bytes + (s.out.data != NULL ? 4.0 * WIDE * HIGH : 0.0);
+    fenced block;
+    fence(&block, bytes, 0);
+    CHECK(lmb_frame_init(&f, &s, block.block, bytes) == LMB_OK);
+    CHECK_MSG(lmb_render_begin(&render, &f) == LMB_OK && lmb_plan_frame(&plan, &render, NULL) == LMB_OK, "%s", k->name);
+    CHECK_MSG((double)plan.bytes > 0.98 * all && (double)plan.bytes < 1.02 * all, "%s: %.0f of %.0f bytes", k->name,
+              (double)plan.bytes, all);
+    unfence(&block);
+#else
+    (void)k;
+#endif
+}
+
 /* Each thread's scratch is adjacent, complete, and zero. */
 static void test_threads(void)
 {
@@ -350,11 +373,16 @@ static void test_refused(void)
 
 void test_frame_init(void)
 {
-    static kind kinds[17];
+    static kind kinds[18];
     make_scenes();
     for (int i = 0, n = make_kinds(kinds); i < n; ++i) {
         test_block(&kinds[i]);
+        test_planned_bytes(&kinds[i]);
     }
+    kinds[0].name = "live, samples"; /* by_hand_hash has no memory for samples */
+    kinds[0].settings.gather_step = LMB_GATHER_LIVE;
+    kinds[0].settings.samples = 4;
+    test_planned_bytes(&kinds[0]);
     test_threads();
     test_defaults();
     test_refused();
@@ -364,7 +392,7 @@ void test_frame_init(void)
 
 void test_frame_init(void)
 {
-    (void)test_block, (void)test_threads, (void)test_defaults, (void)test_refused, (void)make_kinds, (void)make_scenes;
+    (void)test_block, (void)test_planned_bytes, (void)test_threads, (void)test_defaults, (void)test_refused, (void)make_kinds, (void)make_scenes;
 }
 
 #endif

@@ -1,6 +1,7 @@
 /* plan_table.c: a plan's stages, lights and budget as a table and as JSON. */
 #include "plan_table.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -98,7 +99,10 @@ void plan_print_table(const lmb_plan *p, const render_job *j, const budget_choic
     }
     printf("\n\n");
     print_rows(p);
-    printf("%-14s %9s %6s %10.1f\n\n", "all", short_count(work, p->work), "", (double)p->bytes / 1024.0);
+    printf("%-14s %9s %6s %10.1f  state, and scratch of further threads\n", "the rest", "", "",
+           fmax((double)j->bytes + (double)j->many_lights.bytes - (double)p->bytes, 0.0) / 1024.0);
+    printf("%-14s %9s %6s %10.1f\n\n", "all", short_count(work, p->work), "",
+           fmax((double)j->bytes + (double)j->many_lights.bytes, (double)p->bytes) / 1024.0);
     print_lights(p, j);
     if (f->tree.texel != NULL && f->gather_step == LMB_GATHER_LIVE) {
         printf("live light is planned as the cuts of all tiles, which is more work than it takes\n");
@@ -144,8 +148,10 @@ void plan_print_json(const lmb_plan *p, const render_job *j, const budget_choice
     for (uint32_t i = 0; i < j->scene.light_count; ++i) {
         printf("%s\"%s\"", i > 0 ? ", " : "", lmb_why_name(p->light[i]));
     }
-    printf("],\n  \"faces\": %u, \"faces_drawn\": %u, \"work\": %.6g, \"bytes\": %.0f, \"rate\": %.6g",
-           (unsigned)p->faces, (unsigned)p->faces_drawn, p->work, (double)p->bytes, c->rate);
+    printf("],\n  \"faces\": %u, \"faces_drawn\": %u, \"work\": %.6g, \"bytes\": %.0f, \"memory\": %.0f, "
+           "\"rate\": %.6g",
+           (unsigned)p->faces, (unsigned)p->faces_drawn, p->work, (double)p->bytes,
+           (double)j->bytes + (double)j->many_lights.bytes, c->rate);
     if (has_budget(&c->budget, 0.0f)) {
         printf(",\n  \"budget\": {\"work\": %.6g, \"error\": %.6g, \"bytes\": %.0f, \"meets\": %s, \"estimated_work\": "
                "%.6g, \"checked\": %s, \"estimated_error\": %.6g, \"estimated_bytes\": %.0f, \"look_work\": %.6g, "
