@@ -169,6 +169,27 @@ for subject in "in/m.gltf --size 8x8" "relight --world demo --object in/m.gltf -
     status 1 lambent-bench $subject --runs 1 --only-here
     said "no file in or below its folder (--only-here)"
 done
+# A file that is itself a link, named on the command line.
+cp photo.pfm wall.pfm out/
+gltf sub/t.bin sub/t.png
+cp in/m.gltf out/m.gltf && cp in/m.gltf in/own.gltf
+ln -s ../out/m.gltf in/away.gltf
+ln -s own.gltf in/near.gltf
+ln -s ../out/photo.pfm in/away.pfm
+ln -s ../out in/gone
+for verb in "render in/away.gltf $few -o x.png" "info in/away.gltf" "pack in/away.gltf -o x.lmp" "render in/near.gltf --world in/away.pfm $few -o x.png" \
+    "relight --world in/away.pfm --object tent.obj -o x.png" "mix --photo in/away.pfm --depth wall.pfm --intrinsics 30,30,11.5,11.5 --object tent.obj --scale 0.2 --at 8,12 -o x.png"; do
+    status 1 $verb --only-here
+    said "a link that leads out of its folder (--only-here)"
+done
+status 0 info in/away.gltf
+cp tent.obj out/tent.obj
+printf 'ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n' >triangle.ply
+for model in in/near.gltf in/gone/tent.obj /dev/stdin -; do
+    status 0 info $model --only-here <triangle.ply
+done
+status 1 info in/missing.gltf --only-here
+said "in/missing.gltf: cannot be opened"
 for part in color.pfm depth.pfm; do cp wall.pfm "in/f.$part" && cp wall.pfm "out/f.$part"; done
 printf '{"fx": 30, "fy": 30, "cx": 11.5, "cy": 11.5, "depth_unit_mm": 1000, "camera_to_world": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]}' >in/f.json
 cp in/f.json out/f.json

@@ -148,6 +148,112 @@ int file_keep(const char *path, report *r)
 
 #endif
 
+/* --- references to other files --- */
+
+void file_only_here(void) { is_only_here = 1; }
+
+static int is_separator(char c)
+{
+#ifdef _WIN32
+    return c == '/' || c == '\\';
+#else
+    return c == '/';
+#endif
+}
+
+/* Returns 1 if the text of a relative path stays below its folder. Links are not followed. The last name is a file. */
+static int stays_below(const char *path)
+{
+    int depth = 0;
+    if (is_separator(path[0])) return 0;
+#ifdef _WIN32
+    if (strchr(path, ':')) return 0;
+#endif
+    while (*path) {
+        size_t n = 0;
+        while (path[n] && !is_separator(path[n])) ++n;
+        if (n == 2 && path[0] == '.' && path[1] == '.') {
+            if (depth-- == 0) return 0;
+        } else if (n > 0 && !(n == 1 && path[0] == '.')) {
+            ++depth;
+        }
+        path += n + (path[n] != '\0');
+    }
+    return depth > 0;
+}
+
+#ifdef _WIN32
+static const char *name_in(const char *path)
+{
+    const char *name = path, *c;
+    for (c = path; *c; ++c) {
+        if (*c == '/' || *c == '\\' || *c == ':') name = c + 1;
+    }
+    return name;
+}
+
+/* Resolves all links of a path. Returns NULL if the path does not exist. The caller frees the result. */
+static char *real_path(const char *path)
+{
+    const HANDLE f = CreateFileA(path, 0, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, NULL, OPEN_EXISTING,
+                                 FILE_FLAG_BACKUP_SEMANTICS, NULL);
+    const DWORD size = f != INVALID_HANDLE_VALUE ? GetFinalPathNameByHandleA(f, NULL, 0, 0) : 0;
+    char *out = size > 0 ? malloc((size_t)size + 1) : NULL;
+    if (out && GetFinalPathNameByHandleA(f, out, size + 1, 0) == 0) {
+        free(out);
+        out = NULL;
+    }
+    if (f != INVALID_HANDLE_VALUE) CloseHandle(f);
+    return out;
+}
+#else
+static const char *name_in(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+static char *real_path(const char *path) { return realpath(path, NULL); }
+#endif
+
+/* Is the file in or below the folder, after all links of both? */
+static int is_really_below(const char *path, const char *folder, size_t folder_size)
+{
+    char *own = malloc(folder_size + 2), *real = NULL, *real_folder = NULL;
+    size_t n;
+    int ok = 0;
+    if (own) {
+        memcpy(own, folder, folder_size);
+        strcpy(own + folder_size, ".");
+        real = real_path(path);
+        real_folder = real_path(own);
+    }
+    if (real && real_folder) {
+        n = strlen(real_folder);
+        ok = strncmp(real, real_folder, n) == 0 && (is_separator(real[n]) || (n > 0 && is_separator(real[n - 1])));
+    }
+    free(own);
+    free(real);
+    free(real_folder);
+    return ok;
+}
+
+int file_is_below(const char *path, const char *folder, size_t folder_size, report *r)
+{
+    return !is_only_here ||
+           (strncmp(path, folder, folder_size) == 0 && stays_below(path + folder_size) &&
+            is_really_below(path, folder, folder_size)) ||
+           report_fail(r, "%s: no file in or below its folder (--only-here)", path);
+}
+
+/* Is it a link out of its folder? Names of open files and devices are links, too, but no stranger's file may name
+ * them. */
+static int leads_out(const char *path)
+{
+    return is_only_here && strncmp(path, "/dev/", 5) != 0 && strncmp(path, "/proc/", 6) != 0 &&
+           !is_really_below(path, path, (size_t)(name_in(path) - path));
+}
+
 /* --- reading --- */
 
 /* Running out of memory or open files would happen with another file too; all other errors concern this file. */
@@ -222,7 +328,9 @@ int file_read(file_bytes *out, const char *path, report *r)
     out->size = 0;
     f = open_input(path, r);
     if (!f) return 0;
-    done = (f == stdin || !is_keeping || file_keep(path, r)) && read_all(out, f, path, r);
+    done = f == stdin || !leads_out(path) ||
+           report_fail(r, "%s: a link that leads out of its folder (--only-here)", path);
+    done = done && (f == stdin || !is_keeping || file_keep(path, r)) && read_all(out, f, path, r);
     if (f != stdin) fclose(f);
     if (!done) {
         file_free(out);
@@ -245,82 +353,6 @@ int file_is_folder(const char *path)
 {
     struct stat s;
     return stat(path, &s) == 0 && IS_KIND(s, DIR);
-}
-
-/* --- references to other files --- */
-
-void file_only_here(void) { is_only_here = 1; }
-
-static int is_separator(char c)
-{
-#ifdef _WIN32
-    return c == '/' || c == '\\';
-#else
-    return c == '/';
-#endif
-}
-
-/* Returns 1 if the text of a relative path stays below its folder. Links are not followed. The last name is a file. */
-static int stays_below(const char *path)
-{
-    int depth = 0;
-    if (is_separator(path[0])) return 0;
-#ifdef _WIN32
-    if (strchr(path, ':')) return 0;
-#endif
-    while (*path) {
-        size_t n = 0;
-        while (path[n] && !is_separator(path[n])) ++n;
-        if (n == 2 && path[0] == '.' && path[1] == '.') {
-            if (depth-- == 0) return 0;
-        } else if (n > 0 && !(n == 1 && path[0] == '.')) {
-            ++depth;
-        }
-        path += n + (path[n] != '\0');
-    }
-    return depth > 0;
-}
-
-#ifdef _WIN32
-/* Resolves all links of a path. Returns NULL if the path does not exist. The caller frees the result. */
-static char *real_path(const char *path)
-{
-    const HANDLE f = CreateFileA(path, 0, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, NULL, OPEN_EXISTING,
-                                 FILE_FLAG_BACKUP_SEMANTICS, NULL);
-    const DWORD size = f != INVALID_HANDLE_VALUE ? GetFinalPathNameByHandleA(f, NULL, 0, 0) : 0;
-    char *out = size > 0 ? malloc((size_t)size + 1) : NULL;
-    if (out && GetFinalPathNameByHandleA(f, out, size + 1, 0) == 0) {
-        free(out);
-        out = NULL;
-    }
-    if (f != INVALID_HANDLE_VALUE) CloseHandle(f);
-    return out;
-}
-#else
-static char *real_path(const char *path) { return realpath(path, NULL); }
-#endif
-
-int file_is_below(const char *path, const char *folder, size_t folder_size, report *r)
-{
-    char *own = NULL, *real = NULL, *real_folder = NULL;
-    size_t n;
-    int ok = 0;
-    if (!is_only_here) return 1;
-    if (strncmp(path, folder, folder_size) == 0 && stays_below(path + folder_size)) own = malloc(folder_size + 2);
-    if (own) {
-        memcpy(own, folder, folder_size);
-        strcpy(own + folder_size, ".");
-        real = real_path(path);
-        real_folder = real_path(own);
-    }
-    if (real && real_folder) {
-        n = strlen(real_folder);
-        ok = strncmp(real, real_folder, n) == 0 && (is_separator(real[n]) || (n > 0 && is_separator(real[n - 1])));
-    }
-    free(own);
-    free(real);
-    free(real_folder);
-    return ok || report_fail(r, "%s: no file in or below its folder (--only-here)", path);
 }
 
 /* --- writing --- */
@@ -368,15 +400,6 @@ static void remove_now(const char *path)
     remove(path);
 }
 
-static const char *name_in(const char *path)
-{
-    const char *name = path, *c;
-    for (c = path; *c; ++c) {
-        if (*c == '/' || *c == '\\' || *c == ':') name = c + 1;
-    }
-    return name;
-}
-
 #else
 
 /* Uses the permissions of the file that it replaces; mode < 0: no such file, so the default permissions. */
@@ -408,12 +431,6 @@ static int replace(const char *from, const char *to)
 static void remove_now(const char *path)
 {
     unlink(path);
-}
-
-static const char *name_in(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    return slash ? slash + 1 : path;
 }
 
 #endif

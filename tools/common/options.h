@@ -137,7 +137,8 @@ int options_only_here(const char *text, void *at);
 #define OPTION_ONLY_HERE                                                                                    \
     {.name = "--only-here", .kind = OPTION_FLAG, .parse = options_only_here,                                \
      .help = HELP("a file may only refer to files in or below its own folder, not by an absolute path, by .. or "   \
-                  "by a link that leaves it; other files count as missing. Use it for files from strangers")}
+                  "by a link that leaves it; other files count as missing. A file that is itself such a link is " \
+                  "refused. Use it for files from strangers")}
 #define OPTION_ASK                                                                                          \
     {.name = "--help", .brief = "-h", .kind = OPTION_HELP, .help = HELP("print this text")},                      \
     {.name = "--version", .brief = "-V", .kind = OPTION_VERSION, .help = HELP("print the version of lambent")}
