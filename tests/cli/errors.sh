@@ -5,6 +5,7 @@
 
 photo
 printf 'v nan nan nan\nv nan nan nan\nv nan nan nan\nf 1 2 3\n' >nan.obj
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nf 1 2 3\nf 1 4 2\n' >sliver.obj
 printf 'v 1e9 0 0\nv 1e9 1 0\nv 1e9 0 1\nf 1 2 3\n' >far.obj
 printf 'v 1 2 3\nv 1 2 3\nv 1 2 3\nf 1 2 3\n' >point.obj
 printf '{"asset":{"version":"2.0"},"nodes":[{"camera":0}],"cameras":[{"type":"perspective","perspective":{"yfov":1,"znear":0.1}}]}' >none.gltf
@@ -27,5 +28,58 @@ echo 'x.png nan.obj 8,12' >list.txt
 status 1 mix $seen --placements list.txt
 said "nan.obj: nothing to see: each triangle has"
 check "nothing is written" none x.*
+
+# --- folders in place of files ---
+
+mkdir faces empty
+for verb in "render tent.obj $few" "relight --object tent.obj --size 8x8"; do
+    status 1 $verb --world empty -o x.png
+    said "empty: a folder; give a picture, or empty/ if six faces are in it: px.png"
+    status 1 $verb --world empty/ -o x.png
+    said "empty/: a folder; give a picture, or empty/ if"
+    status 1 $verb --world missing -o x.png
+    said "missing: no such file, and no face missingpx.png"
+done
+cp photo.pfm faces/px.pfm
+status 0 render tent.obj $few --world faces/ -o face.png
+
+# --- notes that tell what to do ---
+
+printf 'v %s\n' '-1e-4 -1 -1' '-1e-4 1 -1' '-1e-4 1 1' '-1e-4 -1 1' '1e-4 -1 -1' '1e-4 1 -1' '1e-4 1 1' '1e-4 -1 1' >slit.obj
+printf 'f %s\n' '1 2 3 4' '5 6 7 8' '1 2 6 5' >>slit.obj
+status 0 play slit.obj $few --frames 1 --eye 0,0,1 --target 0,0,-1
+said "the camera stands still: surfaces are too near beside it; --path FILE moves it"
+box
+status 0 play box.obj $few --frames 1 --eye 0,0,0 --target 1,0,0 --light point:0.9999,0.9999,0.9999:0,-1,0:1,1,1
+said "light 0 stands still: surfaces are too near for a circle; --path FILE moves it"
+
+# --- an error is the only line, also if there are notes; without an error the notes are printed ---
+
+status 2 explain tent.obj --size 8x8 --pixel 9,9
+check "one line" one_line err.txt
+status 1 render tent.obj $few --world missing -o x.png
+status 0 explain tent.obj --size 8x8 --pixel 4,4
+said "no camera in tent.obj: framing the scene from"
+status 0 plan tent.obj --size 8x8
+said "no camera in tent.obj: framing the scene from"
+status 0 render tent.obj $few -o x.png
+said "no camera in tent.obj: framing the scene from"
+status 0 pack sliver.obj -o x.lmp
+said "triangles without area or vertices, which are left out: 1"
+status 1 pack sliver.obj -o nowhere/x.lmp
+# --- long names are whole ---
+
+name=$(printf 'n%.0s' $(seq 200))
+mkdir -p "$name/$name/$name"
+long="$name/$name/$name/$name"
+for verb in "mix --photo $long.pfm --depth wall.pfm --intrinsics 30,30,11.5,11.5 --object tent.obj -o x.png" "render $long.obj -o x.png" \
+    "mix --frame $long --object tent.obj -o x.png" "info $long.lmp"; do
+    status 1 $verb
+    said "$long."
+    said "cannot be opened: No such file or directory"
+done
+echo "x.png $long.obj 8,12" >list.txt
+status 1 mix $seen --placements list.txt
+said "$long.obj: cannot be opened: No such file or directory"
 
 finish

@@ -1304,9 +1304,9 @@ static void check_shared(void)
 static void check_report(void)
 {
     report r = {""};
-    char many[600];
+    char many[REPORT_TEXT + 88];
     memset(many, 'a', sizeof many);
-    many[599] = 0;
+    many[sizeof many - 1] = 0;
     CHECK(report_fail(&r, "a\nb: %d", 3) == 0 && strcmp(r.text, "a?b: 3") == 0);
     CHECK(report_fail(&r, "later") == 0 && strcmp(r.text, "a?b: 3") == 0);
     memset(&r, 0, sizeof r);

@@ -142,7 +142,9 @@ int program_main(const program *p, int argc, char **argv)
     host_end_cleanly(clean_up);
     verb_name = argc >= 2 && p->has_verbs ? argv[1] : "";
     options_limit_by(limit);
+    report_hold_notes();
     const int status = start(p, argc, argv);
+    report_tell_notes();
     limit_end();
     file_keep_end();
     return status != 0 || report_flush(&r) ? status : report_end(&r, verb_name, 1);

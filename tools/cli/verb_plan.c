@@ -25,6 +25,7 @@ static int plan(render_job *j, report *r)
     }
     report_note(!j->o.view.is_verbose, "planned in %.1f ms, reading the scene with it",
                 (host_seconds() - start) * 1e3);
+    report_tell_notes();
     if (j->o.json) {
         plan_print_json(&p, j, &choice);
     } else {

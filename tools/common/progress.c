@@ -7,6 +7,7 @@
 
 #include "../../platform/host/host.h"
 #include "command_name.h"
+#include "notes.h"
 
 #define SILENT_S 1.0 /* shorter work shows no progress */
 #define EVERY_S  0.2
@@ -74,6 +75,7 @@ static void show(const char *name, double share, double begun, double now)
 
 void progress_tell(const char *step, double share)
 {
+    notes_tell();
     if (!watch.is_on) {
         return;
     }

@@ -2,6 +2,7 @@
 #include "report.h"
 
 #include "command_name.h"
+#include "notes.h"
 #include "progress.h"
 #include "text_clean.h"
 
@@ -84,6 +85,7 @@ void report_print(FILE *out, const char *format, ...)
 void report_say(const char *format, ...)
 {
     va_list args;
+    report_tell_notes();
     va_start(args, format);
     print(report_words(), format, args);
     va_end(args);
@@ -99,22 +101,34 @@ int report_flush(report *r)
                        errno != 0 ? strerror(errno) : "");
 }
 
+void report_hold_notes(void) { notes_hold(); }
+
+void report_tell_notes(void)
+{
+    progress_wipe();
+    notes_tell();
+}
+
 void report_note(int is_quiet, const char *format, ...)
 {
     va_list args;
-    if (!is_quiet) {
+    if (is_quiet) {
+        return;
+    }
+    va_start(args, format);
+    if (!notes_add(command_name(""), format, args)) {
         progress_wipe();
-        va_start(args, format);
         fprintf(stderr, "%s: ", command_name(""));
         print(stderr, format, args);
         fputc('\n', stderr);
-        va_end(args);
     }
+    va_end(args);
 }
 
 int report_end(const report *r, const char *verb, int status)
 {
     progress_end();
+    notes_drop();
     return report_end_to(stderr, r, verb, status);
 }
 

@@ -11,9 +11,11 @@
 #define REPORT_PRINTF(f, a)
 #endif
 
+enum { REPORT_TEXT = 4608 }; /* a path of 4,096 bytes and a sentence */
+
 /* Zero it before use. The first failure is kept; later ones are ignored. */
 typedef struct report {
-    char text[512]; /* "" if nothing failed; no newline. The last byte is the kind, see report_is_system */
+    char text[REPORT_TEXT]; /* "" if nothing failed; no newline. The last byte is the kind, see report_is_system */
 } report;
 
 /* report_fail: sets the text ("FILE: what is wrong at PLACE; what to do") if none is set. Always returns 0, so that
@@ -41,8 +43,12 @@ int report_fail_system(report *r, const char *format, ...) REPORT_PRINTF(2, 3);
 int report_is_usage(const report *r);
 int report_fail_usage(report *r, const char *format, ...) REPORT_PRINTF(2, 3);
 
-/* report_note: prints a line on stderr after the program's name, unless is_quiet. */
+/* report_note: prints a line on stderr after the program's name, unless is_quiet. report_hold_notes: from now on notes
+ * wait until report_tell_notes, so that an error is the only line: report_end drops them. report_say, and the first
+ * step of progress, tell them. One thread at a time. */
 void report_note(int is_quiet, const char *format, ...) REPORT_PRINTF(2, 3);
+void report_hold_notes(void);
+void report_tell_notes(void);
 
 /* report_end: prints the message after the program and VERB, and returns the exit status: `status`, or 2 after
  * report_fail_usage. */

@@ -259,6 +259,11 @@ static int read_six(lmb_world_pictures *out, world_pictures *own, const char *pr
             return 0;
         }
     }
+    if (out->face_size == 0 && file_is_folder(prefix)) {
+        const char *slash = prefix[strlen(prefix) - 1] == '/' ? "" : "/";
+        return report_fail(r, "%s: a folder; give a picture, or %s%s if six faces are in it: px.png (.pfm .hdr .jpg), "
+                           "nx py ny pz nz", prefix, prefix, slash);
+    }
     return out->face_size > 0 ||
            report_fail(r, "%s: no such file, and no face %spx.png (.pfm .hdr .jpg; px nx py ny pz nz)", prefix, prefix);
 }

@@ -99,7 +99,8 @@ static int find_room(play_motion *m, report *r)
     for (uint32_t i = 0; ok && (m->moves & KEY_LIGHT) != 0 && i < s->light_count; ++i) {
         m->radius[i] = is_pictured(m->job, i) ? 0.0f : room_for_light(&space, s, &m->light_at_rest[i]);
         report_note(is_quiet || m->radius[i] > 0.0f, "light %u stands still: %s", (unsigned)i,
-                    is_pictured(m->job, i) ? "it is the sun of --world" : "no room for a circle around it");
+                    is_pictured(m->job, i) ? "it is the sun of --world"
+                                           : "surfaces are too near for a circle; --path FILE moves it");
         report_note(!m->options->render.view.is_verbose || m->radius[i] <= 0.0f, "light %u moves by %.3g%s",
                     (unsigned)i, (double)m->radius[i], is_sun(&m->light_at_rest[i]) ? " of its length" : " m");
     }
@@ -108,7 +109,8 @@ static int find_room(play_motion *m, report *r)
         const lmb_vec3 ahead = mul3(m->view_at_rest.back, -1.0f), eye = m->view_at_rest.eye;
         m->middle = add3(eye, mul3(ahead, play_space_reach(&space, eye, ahead, far_m)));
         m->swing = room_for_camera(&space, m);
-        report_note(is_quiet || m->swing > 0.0f, "the camera stands still: no room beside it");
+        report_note(is_quiet || m->swing > 0.0f,
+                    "the camera stands still: surfaces are too near beside it; --path FILE moves it");
         report_note(!m->options->render.view.is_verbose || m->swing <= 0.0f, "the camera swings by %.3g degrees",
                     (double)m->swing * 360.0 / two_pi);
     }

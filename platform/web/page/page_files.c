@@ -117,6 +117,7 @@ int file_read(file_bytes *out, const char *path, report *r)
 }
 
 /* A page has no folders; only dropped files exist. */
+int file_is_folder(const char *path) { (void)path; return 0; }
 void file_only_here(void) {}
 int file_is_below(const char *path, const char *folder, size_t folder_size, report *r)
 {
