@@ -82,4 +82,33 @@ echo "x.png $long.obj 8,12" >list.txt
 status 1 mix $seen --placements list.txt
 said "$long.obj: cannot be opened: No such file or directory"
 
+# --- line ends of any system ---
+
+printf 'mtllib lines.mtl\nv 0 0 0 # a corner\nv 1 0 \\\n0\nv 0 1 0\nusemtl a b\nf 1 2 \\\n3\n# end' >lines.obj
+printf 'newmtl a b\nKd 1 0.5 0.25\n' >lines.mtl
+mkdir cr crlf
+for file in lines.obj lines.mtl; do
+    tr '\n' '\r' <$file >cr/$file
+    sed "s/\$/$(printf '\r')/" $file >crlf/$file
+done
+status 0 render lines.obj $few -q -o lines.pfm
+for folder in cr crlf; do
+    status 0 render $folder/lines.obj $few -q -o $folder.pfm
+    check "$folder: the same picture" cmp lines.pfm $folder.pfm
+done
+printf 'v 0 0 0\rv 1 0 0\rv x 1 0\rf 1 2 3\r' >cr.obj
+status 1 info cr.obj
+said 'cr.obj: line 3: "x" is not a number'
+
+# --- standard input under each of its names ---
+
+"$TOOL" render tent.obj $few -q -o tent.pfm
+for name in - /dev/stdin /dev/fd/0; do
+    "$TOOL" render $name $few -q -o stdin.pfm <tent.obj
+    check "$name is read as OBJ" cmp tent.pfm stdin.pfm
+    rm -f stdin.pfm
+done
+status 2 render "" -o x.png
+said 'SCENE: `` is not text of a character or more'
+
 finish

@@ -53,7 +53,7 @@ void options_wants(char *out, size_t size, const option_row *row)
         snprintf(out, size, "%sspot|point|sun:PX,PY,PZ:DX,DY,DZ:R,G,B[:INNER,OUTER]%s with angles up to 89",
                  row->nones > 0 ? "none or " : "", row->sizes > 0 ? "[:SIZE]" : "");
     } else if (row->kind == OPTION_TEXT) {
-        snprintf(out, size, "a text that is not empty");
+        snprintf(out, size, "text of a character or more");
     } else if (row->kind >= OPTION_INT && row->kind <= OPTION_MULTIPLE_OF_8) {
         snprintf(out, size, "%s%s", row->kind == OPTION_INT ? "a whole number, " : "", range);
     } else if (row->kind == OPTION_NUMBER || row->kind == OPTION_ABOVE) {

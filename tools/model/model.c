@@ -188,6 +188,11 @@ static int finish(model_build *b)
 
 typedef int (*model_reader)(model_build *b, const uint8_t *data, size_t size);
 
+static int is_stdin(const char *path)
+{
+    return strcmp(path, "-") == 0 || strcmp(path, "/dev/stdin") == 0 || strncmp(path, "/dev/fd/", 8) == 0;
+}
+
 /* Selects by magic for packed scenes; magic, extension or a first brace for glTF; first line or extension for PLY.
  * OBJ has no magic: only the extension selects it, or text on standard input. Otherwise returns NULL. */
 static model_reader find_reader(const char *path, const file_bytes *file)
@@ -205,7 +210,7 @@ static model_reader find_reader(const char *path, const file_bytes *file)
         ++i;
     if (has_ending(path, ".gltf") || has_ending(path, ".glb") || (i < file->size && file->data[i] == '{'))
         return gltf_load;
-    return strcmp(path, "-") == 0 && file->size > 0 && !memchr(file->data, 0, file->size) ? obj_load : NULL;
+    return is_stdin(path) && file->size > 0 && !memchr(file->data, 0, file->size) ? obj_load : NULL;
 }
 
 static int load_content(model_build *b, const file_bytes *file)
