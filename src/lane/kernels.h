@@ -474,11 +474,13 @@ typedef struct lmb_transfer_leaf {
 #if LMB_TREES
 /* A triangle with a mask over a tile: the plane, as in raster/plane.h, and values at the corners. */
 typedef struct lmb_masked_job {
-    lmb_rays rays;
+    const lmb_rays *rays;
     lmb_vec3 corner, plane, g1, g2;
     float w_min, w_max;
     float alpha[3], u[3], v[3];
     float cutoff;
+    float behind; /* factor of depths, at most 1 */
+    int is_solid; /* 1: the tile has no hole */
     const lmb_texture *texture; /* RGBA8 */
 } lmb_masked_job;
 #endif

@@ -514,6 +514,9 @@ static void set_bin_rows(bin_drawing *out, lmb_target *rows, const lmb_target *t
     out->context.target = rows;
     out->context.view = view;
     out->context.scene = bins->scene;
+#if LMB_TREES
+    out->context.is_ahead = 0;
+#endif
     out->context.culling = culling;
     out->context.window = lmb_target_window(rows, view);
     out->context.window.farthest = NULL;

@@ -131,6 +131,26 @@ static void draw_clusters(lmb_fill_context *c, const lmb_draw_instance *d, lmb_b
 }
 #endif
 
+#if LMB_TREES
+enum { MIN_AHEAD = 64, EACH_AHEAD = 29 };
+
+/* Draws every 29th large triangle with holes ahead, a little behind its place. Most pixels behind these triangles then
+ * need no test of alpha, in any order of the triangles. The draw itself covers what was drawn ahead, so both must drop
+ * the same triangles: kernels->setup decides. */
+static void draw_ahead(lmb_fill_context *c, const lmb_draw_instance *d, lmb_batch *batch, uint32_t first,
+                       uint32_t past)
+{
+    c->is_ahead = 1;
+    for (uint32_t id = first; past - first >= MIN_AHEAD && id < past && past - id > EACH_AHEAD; id += EACH_AHEAD) {
+        c->kernels->setup(batch, &d->job, d->mesh, id - d->first_id, 1);
+        if (((batch->sets.other | batch->sets.small) & 1u) != 0) {
+            (void)lmb_draw_one(c, d, id);
+        }
+    }
+    c->is_ahead = 0;
+}
+#endif
+
 static void draw_instance_range(lmb_fill_context *c, lmb_batch *batch, const lmb_instance *instance, uint32_t first,
                                 uint32_t past, uint32_t flags, lmb_stats *stats)
 {
@@ -144,6 +164,11 @@ static void draw_instance_range(lmb_fill_context *c, lmb_batch *batch, const lmb
         draw_clusters(c, &d, batch, lmb_cluster_find(&c->place, c->culling, c->scene, instance->mesh), first, past,
                       stats);
         return;
+    }
+#endif
+#if LMB_TREES
+    if (d.masked) {
+        draw_ahead(c, &d, batch, first, past);
     }
 #endif
     draw_triangles(c, &d, batch, first, past, stats);
@@ -163,6 +188,9 @@ static lmb_status set_context(lmb_fill_context *out, const lmb_target *target, c
         out->view = view;
         out->scene = scene;
         out->window = lmb_target_window(target, view);
+#if LMB_TREES
+        out->is_ahead = 0;
+#endif
     }
     return status;
 }

@@ -20,8 +20,21 @@
 #define MIN_PLANE_SLOPE     0.05f /* least of a tile's slopes, of the largest, to test all pixels at once */
 #define BARYCENTRIC_MARGIN  (1.0f / 64.0f) /* part of a tile's barycentrics, for rounding */
 
+/* Depths of triangles that are drawn ahead: less than all others of the same triangle. In 16 bits two codes less. */
+#define FACTOR_BEHIND (1.0f - 1.0f / 4194304.0f)
+#define CODES_BEHIND  2.0f
+#define MIN_TILES_AHEAD 8 /* triangles of fewer tiles are not drawn ahead */
+
 /* Max texels read to test whether a tile is all hole or all solid. Its 64 pixels read 256. */
 #define TILE_TEXELS 128u
+
+/* Blocks of tiles are tested at once, then halved; max texels read for one. Triangles of fewer tiles have none. A
+ * triangle may have MIN_MISSES blocks that are neither hole nor solid, one more for every MISS_TILES of its tiles, and
+ * one for every EARNED_TILES in blocks that were hole or solid; then no more are halved, and after WHOLE_MISSES more
+ * none is tested. */
+enum { BLOCK_COLUMNS = 8, BLOCK_ROWS = 4, BLOCK_HALVINGS = 4, MIN_BLOCK_TILES = 8 };
+enum { MIN_MISSES = 2, MISS_TILES = 64, EARNED_TILES = 4, WHOLE_MISSES = 3 };
+#define BLOCK_TEXELS 1024u
 
 /* Pieces of the current tile that need no test of single pixels. Before the first pixel passes the depth test the tile
  * is not examined. */
@@ -29,6 +42,11 @@ enum { COVERS_SOME = 0, COVERS_UNKNOWN = 4 };
 
 /* The triangle's surface, and the rays of the current tile. */
 typedef struct masked_surface {
+#if LMB_TREES
+    lmb_masked_job job; /* if `batches`; of others `behind` */
+    int batches;        /* the kernel fills whole tiles */
+    int misses;         /* blocks that may still be neither hole nor solid before no more are tested */
+#endif
     lmb_rays rays;
     lmb_plane plane;
     lmb_resolve_alpha alpha;
@@ -36,10 +54,6 @@ typedef struct masked_surface {
     uint32_t id;
     int32_t x, y; /* of the current tile, px */
     const lmb_texture *texture; /* RGBA8, or NULL */
-#if LMB_TREES
-    lmb_masked_job job; /* if `batches`, but for the rays */
-    int batches;        /* the kernel fills whole tiles */
-#endif
     int part; /* of the current tile: COVERS_SOME, COVERS_UNKNOWN, LMB_COVERS_NONE or LMB_COVERS_ALL */
 } masked_surface;
 
@@ -97,17 +111,17 @@ static float corner_point(float b[2], const lmb_plane *p, const lmb_rays *rays, 
     return slope;
 }
 
-/* Tests the whole tile at once, if all of its rays meet the plane on the same side and far from the horizon. Then the
- * barycentrics of all pixels lie between those of the corners. */
-NOINLINE int tile_part(const masked_surface *s, const lmb_fill_context *c)
+/* Tests tiles from the first pixel of the rays on at once, if all of their rays meet the plane on the same side and far
+ * from the horizon. Then the barycentrics of all pixels lie between those of the corners. */
+NOINLINE int tiles_part(const masked_surface *s, const lmb_fill_context *c, int32_t columns, int32_t rows,
+                        uint32_t texels)
 {
-    const float past = (float)(LMB_TILE - 1);
+    const float right = (float)(LMB_TILE * columns - 1), bottom = (float)(LMB_TILE * rows - 1);
     const int blends = LMB_MULTISAMPLE && s->blends;
-    uint32_t texels = TILE_TEXELS;
     float low[2], high[2], slope_min = 0.0f, slope_max = 0.0f;
     for (int i = 0; i < 4; ++i) {
         float b[2];
-        const float slope = corner_point(b, &s->plane, &s->rays, i & 1 ? past : 0.0f, i & 2 ? past : 0.0f);
+        const float slope = corner_point(b, &s->plane, &s->rays, i & 1 ? right : 0.0f, i & 2 ? bottom : 0.0f);
         slope_min = i == 0 ? slope : minf(slope_min, slope);
         slope_max = i == 0 ? slope : maxf(slope_max, slope);
         for (int k = 0; k < 2; ++k) {
@@ -145,7 +159,7 @@ static int stands_at(masked_surface *s, const lmb_fill_context *c, int32_t x, in
 {
     float b1, b2;
 #if LMB_TREES
-    s->part = s->part == COVERS_UNKNOWN ? tile_part(s, c) : s->part;
+    s->part = s->part == COVERS_UNKNOWN ? tiles_part(s, c, 1, 1, TILE_TEXELS) : s->part;
     if (s->part != COVERS_SOME) {
         return s->part == LMB_COVERS_ALL;
     }
@@ -168,11 +182,16 @@ static int stands_at(masked_surface *s, const lmb_fill_context *c, int32_t x, in
     return lmb_resolve_opaque(&s->alpha, c->scene, b1, b2);
 }
 
-/* Same values as fill.inl. */
-static float target_depth_at(const lmb_fill_job *job, int32_t x, int32_t y)
+/* Same values as masked.inl. */
+static float target_depth_at(const lmb_fill_job *job, const masked_surface *s, int32_t x, int32_t y)
 {
-    const float d = (job->d + job->dy * (float)y) + job->dx * (float)x;
-    return minf(maxf(d, job->d_min), job->d_max);
+    const float d = (job->d + job->dy * (float)y) + job->dx * (float)x, held = minf(maxf(d, job->d_min), job->d_max);
+#if LMB_TREES
+    return minf(held * s->job.behind, held);
+#else
+    (void)s;
+    return held;
+#endif
 }
 
 static float depth_code_of(const lmb_fill_job *job, float d)
@@ -194,7 +213,7 @@ static void fill_pixel(const lmb_fill_context *c, const lmb_fill_tile *tile, con
                        masked_surface *s, int32_t x, int32_t y)
 {
     const int32_t at = y * tile->depth_step + x;
-    const float d = target_depth_at(job, x, y);
+    const float d = target_depth_at(job, s, x, y);
     if (tile->depth_format == LMB_DEPTH32F) {
         float *was = (float *)tile->depth + at;
         if (!(*was < d) || !stands_at(s, c, x, y)) {
@@ -218,8 +237,7 @@ static void fill_tile_masked(const lmb_fill_context *c, const lmb_fill_tile *til
 {
     const int32_t *e = job->e, *ex = job->ex, *ey = job->ey;
 #if LMB_TREES
-    if (s->batches) { /* tests of the whole tile would cost more than its pixels */
-        s->job.rays = s->rays;
+    if (s->batches) { /* tests of a single tile would cost more than its pixels */
         c->kernels->fill_masked(tile, job, &s->job);
         return;
     }
@@ -284,6 +302,7 @@ static void set_masked_job(masked_surface *s, const lmb_fill_context *c)
     lmb_masked_job *j = &s->job;
     s->batches = c->kernels->fill_masked != NULL && s->texture != NULL && !(LMB_MULTISAMPLE && s->blends);
     j->texture = s->texture;
+    j->rays = &s->rays;
     j->corner = s->plane.corner;
     j->plane = s->plane.plane;
     j->g1 = s->plane.g1;
@@ -291,6 +310,7 @@ static void set_masked_job(masked_surface *s, const lmb_fill_context *c)
     j->w_min = s->plane.w_min;
     j->w_max = s->plane.w_max;
     j->cutoff = s->alpha.cutoff;
+    j->behind = c->is_ahead ? FACTOR_BEHIND : 1.0f;
     for (int k = 0; k < 3; ++k) {
         j->alpha[k] = s->alpha.corner[k];
         j->u[k] = s->alpha.u[k];
@@ -312,10 +332,172 @@ NOINLINE int is_surface_hole(const masked_surface *s, const lmb_fill_context *c,
 }
 #endif
 
+/* First and last tiles, in the window. */
+typedef struct tile_range {
+    int32_t x0, y0, x1, y1;
+} tile_range;
+
+#if LMB_TREES
+/* As tiles_part, for a block of tiles. */
+static int block_part(masked_surface *s, const lmb_fill_context *c, const tile_range *block)
+{
+    const int32_t columns = block->x1 - block->x0 + 1, rows = block->y1 - block->y0 + 1;
+    lmb_resolve_rays(&s->rays, c->view, c->target->x0 + block->x0 * LMB_TILE, c->target->y0 + block->y0 * LMB_TILE);
+    const int part = tiles_part(s, c, columns, rows, BLOCK_TEXELS);
+    s->misses += part == COVERS_SOME ? -1 : columns * rows / EARNED_TILES;
+    return part;
+}
+
+/* 1 if the triangle lies beside a block. */
+static int is_beside(const lmb_setup *s, const lmb_fill_context *c, const tile_range *block)
+{
+    const int32_t x = (c->target->x0 + block->x0 * LMB_TILE) * 256 + view_origin_x(c->view);
+    const int32_t y = (c->target->y0 + block->y0 * LMB_TILE) * 256 + view_origin_y(c->view);
+    const int32_t right = LMB_TILE * (block->x1 - block->x0 + 1) - 1, down = LMB_TILE * (block->y1 - block->y0 + 1) - 1;
+    for (int i = 0; i < 3; ++i) {
+        const int64_t ex = s->ex[i], ey = s->ey[i];
+        if (setup_edge(s, i, x, y) + right * (ex > 0 ? ex : 0) + down * (ey > 0 ? ey : 0) < 0) {
+            return 1;
+        }
+    }
+    return 0;
+}
+#endif
+
+/* Sets the job and the surface for tile (tx, ty) of the window. Returns 0 if the triangle lies beside it. */
+static int set_tile(lmb_fill_tile *out, lmb_fill_job *job, masked_surface *surface, const lmb_fill_context *c,
+                    const lmb_setup *s, int32_t tx, int32_t ty)
+{
+    const int32_t x = c->target->x0 + tx * LMB_TILE, y = c->target->y0 + ty * LMB_TILE;
+    const int32_t x_24_8 = x * 256 + view_origin_x(c->view), y_24_8 = y * 256 + view_origin_y(c->view);
+    if (!enter_tile(job, s, x_24_8, y_24_8)) {
+        return 0;
+    }
+    *out = lmb_target_tile(c->target, tx, ty);
+#if LMB_TREES
+    out->id_format = c->is_ahead ? LMB_FORMAT_NONE : out->id_format;
+#endif
+    job->d = (float)(s->d_origin + s->d_x * (x_24_8 * (1.0 / 256.0)) + s->d_y * (y_24_8 * (1.0 / 256.0)));
+    if (LMB_MULTISAMPLE) {
+        surface->x = x;
+        surface->y = y;
+    }
+    lmb_resolve_rays(&surface->rays, c->view, x, y);
+    return 1;
+}
+
+#if LMB_TREES
+/* Parts of a triangle's tiles that are still to be filled. A function returns them one by one, and its caller fills
+ * them, because both together would take more stack. */
+typedef struct tile_parts {
+    int16_t left[BLOCK_HALVINGS + 1][4]; /* x0, y0, x1, y1 */
+    int16_t count;
+    int16_t x, y; /* the current block's first tile; x < 0: the parts are no blocks */
+    int16_t tiles; /* of the current block */
+} tile_parts;
+
+static void parts_put(tile_parts *inout, const tile_range *all, int32_t columns, int32_t rows)
+{
+    int16_t *left = inout->left[inout->count++];
+    left[0] = inout->x;
+    left[1] = inout->y;
+    left[2] = (int16_t)mini(inout->x + columns - 1, all->x1);
+    left[3] = (int16_t)mini(inout->y + rows - 1, all->y1);
+    inout->tiles = (int16_t)mini((left[2] - left[0] + 1) * (left[3] - left[1] + 1), 32767);
+}
+
+/* all: the triangle's tiles, at least one. */
+static void parts_begin(tile_parts *out, const tile_range *all, masked_surface *surface)
+{
+    const int32_t columns = all->x1 - all->x0 + 1, rows = all->y1 - all->y0 + 1;
+    const int by_blocks = surface->batches && columns * rows >= MIN_BLOCK_TILES;
+    surface->misses = by_blocks ? MIN_MISSES + columns * rows / MISS_TILES : -WHOLE_MISSES;
+    out->count = 0;
+    out->x = (int16_t)all->x0;
+    out->y = (int16_t)all->y0;
+    parts_put(out, all, by_blocks ? BLOCK_COLUMNS : columns, by_blocks ? BLOCK_ROWS : rows);
+    out->x = by_blocks ? out->x : -1;
+}
+
+/* Takes the next block. Returns 0 if there is none. */
+static int parts_next_block(tile_parts *inout, const tile_range *all)
+{
+    if (inout->x < 0) {
+        return 0;
+    }
+    inout->x = (int16_t)(inout->x + BLOCK_COLUMNS);
+    if (inout->x > all->x1) {
+        inout->x = (int16_t)all->x0;
+        inout->y = (int16_t)(inout->y + BLOCK_ROWS);
+    }
+    if (inout->y > all->y1) {
+        return 0;
+    }
+    parts_put(inout, all, BLOCK_COLUMNS, BLOCK_ROWS);
+    return 1;
+}
+
+/* Replaces the last part by its halves. */
+static void parts_halve(tile_parts *inout)
+{
+    int16_t *first = inout->left[inout->count - 1], *second = inout->left[inout->count++];
+    const int axis = first[2] - first[0] >= first[3] - first[1] ? 0 : 1;
+    const int16_t middle = (int16_t)(first[axis] + (first[axis + 2] - first[axis] + 1) / 2);
+    for (int i = 0; i < 4; ++i) {
+        second[i] = first[i];
+    }
+    second[axis + 2] = (int16_t)(middle - 1);
+    first[axis] = middle;
+}
+
+/* Takes the next part that is all solid or cannot be halved; parts that are all hole are left out. Returns 0 if there
+ * is none. */
+NOINLINE int parts_next(tile_range *out, tile_parts *inout, const tile_range *all, masked_surface *surface,
+                        const lmb_fill_context *c, const lmb_setup *s)
+{
+    while (inout->count > 0 || parts_next_block(inout, all)) {
+        const int16_t *last = inout->left[inout->count - 1];
+        const tile_range at = {last[0], last[1], last[2], last[3]};
+        const int32_t tiles = (at.x1 - at.x0 + 1) * (at.y1 - at.y0 + 1);
+        const int32_t limit = tiles == inout->tiles ? -WHOLE_MISSES : 0;
+        int part = LMB_COVERS_NONE;
+        if (!is_beside(s, c, &at)) {
+            part = surface->misses > limit && tiles >= 2 ? block_part(surface, c, &at) : COVERS_SOME;
+        }
+        if (part == COVERS_SOME && surface->misses > 0 && tiles > 2) {
+            parts_halve(inout);
+            continue;
+        }
+        --inout->count;
+        if (part != LMB_COVERS_NONE) {
+            surface->job.is_solid = part == LMB_COVERS_ALL;
+            *out = at;
+            return 1;
+        }
+    }
+    return 0;
+}
+#endif
+
+/* Fills the triangle's tiles in a range. */
+static void fill_range(const lmb_fill_context *c, const lmb_setup *s, lmb_fill_job *job, masked_surface *surface,
+                       const tile_range *range, int part)
+{
+    for (int32_t ty = range->y0; ty <= range->y1; ++ty) {
+        for (int32_t tx = range->x0; tx <= range->x1; ++tx) {
+            lmb_fill_tile tile;
+            if (set_tile(&tile, job, surface, c, s, tx, ty)) {
+                surface->part = part;
+                fill_tile_masked(c, &tile, job, surface);
+            }
+        }
+    }
+}
+
 void lmb_fill_masked(const lmb_fill_context *c, const lmb_setup *s, uint32_t id, int blends)
 {
     const lmb_target *target = c->target;
-    int32_t tx0, tx1, ty0, ty1;
+    tile_range all;
     lmb_fill_job job;
     masked_surface surface;
     if (!set_surface(&surface, c, id)) {
@@ -326,14 +508,8 @@ void lmb_fill_masked(const lmb_fill_context *c, const lmb_setup *s, uint32_t id,
         surface.id = id;
     }
     const int32_t origin_x = view_origin_x(c->view), origin_y = view_origin_y(c->view);
-    tile_span(&tx0, &tx1, s->x_min, s->x_max, origin_x, target->x0, target->depth.width);
-    tile_span(&ty0, &ty1, s->y_min, s->y_max, origin_y, target->y0, target->depth.height);
-#if LMB_TREES
-    set_masked_job(&surface, c);
-    if (is_surface_hole(&surface, c, (tx1 - tx0 + 1) * (ty1 - ty0 + 1))) {
-        return;
-    }
-#endif
+    tile_span(&all.x0, &all.x1, s->x_min, s->x_max, origin_x, target->x0, target->depth.width);
+    tile_span(&all.y0, &all.y1, s->y_min, s->y_max, origin_y, target->y0, target->depth.height);
     job.dx = (float)s->d_x;
     job.dy = (float)s->d_y;
     job.d_min = s->d_min;
@@ -341,21 +517,24 @@ void lmb_fill_masked(const lmb_fill_context *c, const lmb_setup *s, uint32_t id,
     job.d_scale = c->window.d_scale;
     job.d_bias = c->window.d_bias;
     job.id = id;
-    for (int32_t ty = ty0; ty <= ty1; ++ty) {
-        int32_t y = target->y0 + ty * LMB_TILE, y_24_8 = y * 256 + origin_y;
-        int32_t x = target->x0 + tx0 * LMB_TILE, x_24_8 = x * 256 + origin_x;
-        for (int32_t tx = tx0; tx <= tx1; ++tx, x_24_8 += LMB_TILE * 256) {
-            if (enter_tile(&job, s, x_24_8, y_24_8)) {
-                lmb_fill_tile tile = lmb_target_tile(target, tx, ty);
-                job.d = (float)(s->d_origin + s->d_x * (x_24_8 * (1.0 / 256.0)) + s->d_y * (y_24_8 * (1.0 / 256.0)));
-                if (LMB_MULTISAMPLE) {
-                    surface.x = target->x0 + tx * LMB_TILE;
-                    surface.y = y;
-                }
-                lmb_resolve_rays(&surface.rays, c->view, target->x0 + tx * LMB_TILE, y);
-                surface.part = tx1 > tx0 || ty1 > ty0 ? COVERS_UNKNOWN : COVERS_SOME;
-                fill_tile_masked(c, &tile, &job, &surface);
-            }
-        }
+#if LMB_TREES
+    const int32_t tiles = (all.x1 - all.x0 + 1) * (all.y1 - all.y0 + 1);
+    if (all.x1 < all.x0 || all.y1 < all.y0 || (c->is_ahead && tiles < MIN_TILES_AHEAD)) {
+        return;
     }
+    job.d_bias -= c->is_ahead ? CODES_BEHIND : 0.0f;
+    set_masked_job(&surface, c);
+    if (is_surface_hole(&surface, c, tiles)) {
+        return;
+    }
+    const int part = all.x1 > all.x0 || all.y1 > all.y0 ? COVERS_UNKNOWN : COVERS_SOME;
+    tile_parts parts;
+    tile_range range;
+    parts_begin(&parts, &all, &surface);
+    while (parts_next(&range, &parts, &all, &surface, c, s)) {
+        fill_range(c, s, &job, &surface, &range, part);
+    }
+#else
+    fill_range(c, s, &job, &surface, &all, COVERS_SOME);
+#endif
 }

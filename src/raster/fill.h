@@ -13,6 +13,9 @@ typedef struct lmb_fill_context {
     const lmb_view *view;
     const lmb_scene *scene;
     lmb_fill_window window;
+#if LMB_TREES
+    int32_t is_ahead; /* 1: triangles with holes are drawn a little behind their place, without ids; small ones not */
+#endif
 #if LMB_CULLING
     const lmb_culling *culling; /* or NULL */
     lmb_cluster_place place;

@@ -16,7 +16,7 @@ LANE_INLINE lane masked_mix(const float corner[3], lane b1, lane b2)
 /* Barycentrics of pixels k .. k + LANES - 1 on the plane, clamped to the triangle. Returns those that are numbers. */
 LANE_INLINE lane_mask masked_point(lane *b1, lane *b2, const lmb_masked_job *j, int k)
 {
-    const lmb_rays *r = &j->rays;
+    const lmb_rays *r = j->rays;
     const lane x = lane_column(k), y = lane_row(k), zero = lane_splat(0.0f), one = lane_splat(1.0f);
     const lane3 corner = lane3_of(j->corner), plane = lane3_of(j->plane);
     const lane3 origin = lane3_add(
@@ -99,13 +99,14 @@ static void KERNEL(fill_masked)(const lmb_fill_tile *tile, const lmb_fill_job *j
                     e1 = lanei_affine(job->e[1], job->ex[1], job->ey[1], k),
                     e2 = lanei_affine(job->e[2], job->ex[2], job->ey[2], k);
         const lane row = lane_add(lane_splat(job->d), lane_mul(lane_splat(job->dy), lane_row(k)));
-        const lane d = lane_hold(lane_add(row, lane_mul(lane_splat(job->dx), lane_column(k))), d_min, d_max);
+        const lane at = lane_hold(lane_add(row, lane_mul(lane_splat(job->dx), lane_column(k))), d_min, d_max);
+        const lane d = lane_min(lane_mul(at, lane_splat(masked->behind)), at);
         lane_mask in = lanei_not_negative(lanei_or(lanei_or(e0, e1), e2));
         in = mask_and(in, masked_nearer(tile, job, y * tile->depth_step + column, d));
         if ((mask_bits(in) & ALL_LANES) == 0) {
             continue;
         }
-        in = mask_and(in, masked_opaque(masked, &level, k));
+        in = masked->is_solid ? in : mask_and(in, masked_opaque(masked, &level, k));
         if ((mask_bits(in) & ALL_LANES) != 0) {
             fill_pixels(tile, job, column, y, job->id, d, &in);
         }

@@ -162,24 +162,48 @@ float lmb_texture_alpha(const lmb_texture *t, float u, float v)
     return out;
 }
 
+/* Widens the range of codes of alpha by texels x0 .. x1 of a row. */
+static void alphas_between(int32_t *low, int32_t *high, const lmb_texture *t, const texel_level *from, int32_t x0,
+                           int32_t x1, int32_t y)
+{
+    int32_t min = *low, max = *high;
+    if (texels_are_rgba8(t) && x0 >= 0 && x1 < from->width) {
+        const int32_t row = texel_wrap(y, from->height, t->wrap_t);
+        const uint8_t *alpha = from->texels + 4 * ((size_t)row * (size_t)from->width) + 3;
+        for (int32_t x = x0; x <= x1; ++x) {
+            const int32_t code = alpha[4 * (size_t)x];
+            min = mini(min, code);
+            max = maxi(max, code);
+        }
+    } else {
+        for (int32_t x = x0; x <= x1; ++x) {
+            const int32_t code = alpha_at(t, from, x, y);
+            min = mini(min, code);
+            max = maxi(max, code);
+        }
+    }
+    *low = min;
+    *high = max;
+}
+
 int lmb_texture_coverage(const lmb_texture *t, const float low[2], const float high[2], float hole, float solid,
                          uint32_t *texels)
 {
     const texel_level from = texel_find_level(t, 0);
-    int32_t x0, x1, y0, y1, all = LMB_COVERS_NONE | LMB_COVERS_ALL;
+    int32_t x0, x1, y0, y1, min = 255, max = 0, all = 0;
     texels_between(&x0, &x1, low[0], high[0], from.width, t->wrap_s);
     texels_between(&y0, &y1, low[1], high[1], from.height, t->wrap_t);
+    const uint64_t count = (uint64_t)(uint32_t)maxi(x1 - x0 + 1, 0) * (uint32_t)maxi(y1 - y0 + 1, 0);
+    if (count == 0 || count > *texels) {
+        return 0;
+    }
     for (int32_t y = y0; y <= y1; ++y) {
-        if ((uint32_t)(x1 - x0 + 1) > *texels) {
-            return 0;
-        }
         *texels -= (uint32_t)(x1 - x0 + 1);
-        for (int32_t x = x0; x <= x1; ++x) {
-            const float alpha = (float)alpha_at(t, &from, x, y) * (1.0f / 255.0f);
-            all &= alpha < hole ? LMB_COVERS_NONE : alpha > solid ? LMB_COVERS_ALL : 0;
-            if (all == 0) {
-                return 0;
-            }
+        alphas_between(&min, &max, t, &from, x0, x1, y);
+        all = ((float)max * (1.0f / 255.0f) < hole ? LMB_COVERS_NONE : 0) |
+              ((float)min * (1.0f / 255.0f) > solid ? LMB_COVERS_ALL : 0);
+        if (all == 0) {
+            return 0;
         }
     }
     return all;

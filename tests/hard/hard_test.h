@@ -22,5 +22,6 @@ void hard_invariants(hard_stage *stage);
 
 /* The same call, thousands of times. */
 void hard_again(hard_stage *stage);
+void hard_masks(hard_stage *s);
 
 #endif

@@ -2,7 +2,8 @@
  * what must not change a picture, and the same call made thousands of times.
  *
  *     hard              all
- *     hard CASES...     these groups of cases (`lambent-bench hard --help` lists them), or `invariants`, `again`
+ *     hard CASES...     these groups of cases (`lambent-bench hard --help` lists them), or `invariants`, `again`,
+ *                       `masks`
  *     hard -CASES       all but that one
  * Ends with `N passed, N failed, N skipped`; exit status 1 where one failed. */
 #include <stdio.h>
@@ -50,7 +51,7 @@ static int run(const char *name)
     static const struct {
         const char *name;
         void (*run)(hard_stage *);
-    } checks[] = {{"invariants", hard_invariants}, {"again", hard_again}};
+    } checks[] = {{"invariants", hard_invariants}, {"again", hard_again}, {"masks", hard_masks}};
     int found = 0;
     for (int i = 0; hard_groups[i] != NULL; ++i) {
         const int passed = test_passed, failed = test_failed;
@@ -60,7 +61,7 @@ static int run(const char *name)
             found = 1;
         }
     }
-    for (int i = 0; i < 2; ++i) {
+    for (int i = 0; i < 3; ++i) {
         const int passed = test_passed, failed = test_failed;
         if (is_meant(name, checks[i].name)) {
             run_checks(checks[i].run);

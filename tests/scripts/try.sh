@@ -15,7 +15,7 @@ kinds=$(
     sed -nE 's,^ *\{"([a-z0-9-]+)"\, case_.*,golden/\1,p' tests/golden/*.inc
     sed -n '/^const char \*const hard_groups/,/NULL/{s/^[^{]*{//;s/NULL.*//;s/[",]/ /g;p;}' tools/hard/hard.c |
         tr -s ' ' '\n' | sed -n 's,^[a-z],hard/&,p'
-    printf '%s\n' hard/invariants hard/again
+    printf '%s\n' hard/invariants hard/again hard/masks
     for file in tests/cli/*.sh; do
         name=${file##*/}
         [ "$name" = common.sh ] || echo "cli/${name%.sh}"
