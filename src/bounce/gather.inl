@@ -63,6 +63,7 @@ static inline lane disc_factor(lane3 to, lane r2, lane3 n, lane3 axis, lane area
 #include <string.h>
 
 #include "../occlusion/march.inl"
+#include "polygon.h"
 #include "../raster/tile.h"
 
 /* A group closer than this many group radii is near: the discs are then added one by one. Trim on cornell, two_lights,
@@ -71,6 +72,8 @@ static inline lane disc_factor(lane3 to, lane r2, lane3 n, lane3 axis, lane area
 /* Discs that share one segment if none of them is near. 1 takes three times the segments for 0.001 of trim. */
 #define MAX_SHARED_DISCS 4u
 #define SAME_SURFACE 0.90630779f /* cosine of 25 degrees */
+#define FLAT_PART    0.15f         /* of a disc's half sides: pixels in inner edges are lit from this height */
+#define PLACE_NOISE  4.7683716e-7f /* 2^-21: rounding of places, of their distance from the origin and from a disc */
 
 /* Picks instead of adding zeros: -0 + 0 is 0, so the bytes of a lane would depend on its neighbours. */
 static inline void gather_add(lmb_irradiance *inout, int k, lane_mask lit, lane weight, const float flux[3])
@@ -486,15 +489,40 @@ static void KERNEL(gather)(lmb_irradiance *inout, lmb_gather_scratch *scratch, c
 
 /* --- near groups, disc by disc ------------------------------------------------------------------------------------ */
 
+#if LMB_TREES
+/* The place of pixel k. In an inner edge, less than a seventh of a disc above the other wall's plane, it is lit from
+ * that height, because discs end before the edge or behind it. A pixel in the plane, within rounding, is on the eye's
+ * side of it; without occlusion in front. */
+static inline lmb_vec3 gather_place(const lmb_tile *tile, int k, const lmb_point *disc, const lmb_march_job *m)
+{
+    const lmb_vec3 at = tile_vec(tile->position, k), face = tile_vec(tile->face, k), to = sub3(disc->position, at);
+    const float reach = FLAT_PART * (length3(disc->axis_u) + length3(disc->axis_v));
+    const float noise = PLACE_NOISE * (length3(at) + length3(to)), height = -dot3(disc->normal, to);
+    const lmb_vec3 to_eye = m == NULL ? disc->normal : m->perspective ? sub3(m->eye, at) : m->back;
+    if (height > (dot3(disc->normal, to_eye) > 0.0f ? -noise : noise) && height < reach &&
+        absf(dot3(face, disc->normal)) < POLYGON_BENT && dot3(face, to) > 0.0f) {
+        return add3(at, mul3(disc->normal, reach - height));
+    }
+    return at;
+}
+#endif
+
 /* The exact form factor, for the few lanes so close to a disc that the shape matters. */
-static inline lane gather_quads(lane weight, lane_mask close, const lmb_tile *tile, int k, const lmb_point *disc)
+static inline lane gather_quads(lane weight, lane_mask close, const lmb_tile *tile, int k, const lmb_point *disc,
+                                const lmb_march_job *m)
 {
     float w[LANES];
     uint32_t bits = mask_bits(close);
     lane_store(w, weight);
     for (int i = 0; i < LANES; ++i) {
         if ((bits >> i) & 1u) {
-            w[i] = lmb_quad_factor(tile_vec(tile->position, k + i), tile_vec(tile->face, k + i),
+#if LMB_TREES
+            const lmb_vec3 at = gather_place(tile, k + i, disc, m);
+#else
+            const lmb_vec3 at = tile_vec(tile->position, k + i);
+            (void)m;
+#endif
+            w[i] = lmb_quad_factor(at, tile_vec(tile->face, k + i),
                                    tile_vec(tile->normal, k + i), disc->position, disc->normal, disc->axis_u,
                                    disc->axis_v);
         }
@@ -516,7 +544,7 @@ static inline void gather_disc(lmb_irradiance *inout, const lmb_tile *tile, int 
     lane_mask close = mask_and(hits, lane_lt(r2, near2));
     lane weight = disc_factor(to, lane_max(r2, near2), n, lane3_of(d->normal), lane_splat(area));
     if (mask_bits(close)) {
-        weight = gather_quads(weight, close, tile, k, d);
+        weight = gather_quads(weight, close, tile, k, d, m);
     }
     lane_mask lit = mask_and(hits, lane_lt(zero, weight)), own = mask_and(lit, close);
     lit = mask_and(mask_and(mask_and(lit, mask_not(close)), shared), lane_lt(zero, lane3_dot(face, to)));
