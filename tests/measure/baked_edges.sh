@@ -2,14 +2,14 @@
 # random: one row a scene.
 #
 # Both use defaults and one bounce; the reference is `--quality best`. TUNED, HELD_OUT: scenes of tests/scenes; no
-# constant is chosen on the latter. SIZE: pixels (default 64x64). A row passes if baked light's trim is within 1.5 x
+# constant is chosen on the latter. FRAME: pixels (default 64x64). A row passes if baked light's trim is within 1.5 x
 # that of gathered light and its leak is at most 2. `compare.py` of the shared folder defines both: leak is mean light
 # over mean truth at pixels whose truth is under 1 % of its mean; `-` if fewer than 21 pixels are so dark.
 . tests/measure/draw.sh
 
 compare=$truth/compare.py
 place=$work/edges
-size=${SIZE:-64x64}
+size=${FRAME:-64x64}
 mkdir -p "$place"
 
 # figures PICTURE: prints `trim leak`.
