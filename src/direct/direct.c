@@ -25,6 +25,7 @@ static lmb_direct_job make_job(const lmb_light *light)
     return job;
 }
 
+#if !LMB_SHADOW_LANES
 /* doubtful: NULL, or gets bit k if the answer is LMB_LIT_IN_DOUBT. */
 ALWAYS_INLINE int pixel_is_lit(lmb_shadow_query *query, uint64_t *doubtful, const lmb_tile *tile, int k)
 {
@@ -38,6 +39,7 @@ ALWAYS_INLINE int pixel_is_lit(lmb_shadow_query *query, uint64_t *doubtful, cons
     }
     return lit;
 }
+#endif
 
 /* doubtful: NULL, or gets the lit pixels whose answer is LMB_LIT_IN_DOUBT. */
 ALWAYS_INLINE lmb_status add_direct(lmb_irradiance *inout, uint64_t *doubtful, const lmb_kernels *kernels,
@@ -52,6 +54,14 @@ ALWAYS_INLINE lmb_status add_direct(lmb_irradiance *inout, uint64_t *doubtful, c
     lmb_direct_job job = make_job(light);
     lmb_shadow_ask(&query, map, light, scene, view);
     kernels->direct(&one, tile, &job);
+#if LMB_SHADOW_LANES
+    const uint64_t shown = kernels->direct_shown(&one, tile);
+    uint64_t unused, lit = shown;
+    if (map != NULL) {
+        lit = lmb_shadow_lit(doubtful != NULL ? doubtful : &unused, &query, kernels, tile, shown);
+    }
+    kernels->direct_add(inout, &one, lit);
+#else
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         int dark = tile->id[k] == 0 || (one.rgb[0][k] == 0.0f && one.rgb[1][k] == 0.0f && one.rgb[2][k] == 0.0f);
         if (!dark && (map == NULL || pixel_is_lit(&query, doubtful, tile, k))) {
@@ -60,6 +70,7 @@ ALWAYS_INLINE lmb_status add_direct(lmb_irradiance *inout, uint64_t *doubtful, c
             }
         }
     }
+#endif
     return LMB_OK;
 }
 

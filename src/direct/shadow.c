@@ -12,11 +12,14 @@
  * Rejected: depth with a slope-scaled bias (bunny_room: acne or 2 cm of detachment, nothing between). */
 #include "shadow.h"
 
+#include <string.h>
+
 #include "../base/light_kind.h"
 #include "../base/vec.h"
 #include "../raster/plane.h"
 #include "../raster/resolve.h"
 #include "../raster/target.h"
+#include "../raster/tile.h"
 #include "part.h"
 
 /* Position of the receiver in a face. */
@@ -83,7 +86,8 @@ static float texel_depth(const lmb_fill_window *map, uint32_t x, uint32_t y)
  * edges are snapped to fractions of a pixel; 2^-22 of the coordinates for a few roundings of the resolve. */
 static float noise_of_receiver(const lmb_shadow_query *query, const lmb_receiver *r)
 {
-    return 3.0517578e-5f * length3(sub3(r->position, query->view->eye)) + 2.3841858e-7f * length3(r->position);
+    return SHADOW_NOISE_PIXEL * length3(sub3(r->position, query->view->eye)) +
+           SHADOW_NOISE_PLACE * length3(r->position);
 }
 
 /* Results of a ray from a place to the light against a triangle. TEXEL_THROUGH is an extra bit: the triangle's plane
@@ -236,3 +240,175 @@ int lmb_is_lit(lmb_shadow_query *query, const lmb_receiver *r)
 #endif
     return over || lit_by_depth(query, &at, r, noise);
 }
+
+#if LMB_SHADOW_LANES
+
+/* --- a tile ------------------------------------------------------------------------------------------------------- */
+
+static int is_lit_at(lmb_shadow_query *query, const lmb_tile *tile, int k)
+{
+    lmb_receiver r;
+    r.position = tile_vec(tile->position, k);
+    r.face = tile_vec(tile->face, k);
+    r.id = tile->id[k];
+    return lmb_is_lit(query, &r);
+}
+
+/* Answers for some pixels of a tile, a mask each. */
+typedef struct shadow_some {
+    uint32_t own;     /* a texel shows the pixel's own triangle */
+    uint32_t shadows, over;
+    uint32_t unclear; /* only lmb_is_lit knows */
+} shadow_some;
+
+/* Asks about the pairs, of pixels from `first` on. */
+static void ask_shadow_pairs(shadow_some *inout, lmb_shadow_pairs *pairs, const lmb_kernels *kernels,
+                             const lmb_tile *tile, int first)
+{
+    lmb_shadow_answers answers;
+    kernels->shadow_ask(&answers, pairs, tile);
+    for (int i = 0; i < pairs->count; ++i) {
+        const int at = pairs->pixel[i] - first;
+        inout->unclear |= (answers.through >> i & 1u) << at;
+        inout->shadows |= (answers.shadows >> i & 1u) << at;
+        inout->over |= (answers.over >> i & 1u) << at;
+    }
+    pairs->count = 0;
+}
+
+/* Adds a pixel and the triangle of an id. Returns 0 if the triangle has holes, or is none. */
+static int add_shadow_pair(lmb_shadow_pairs *pairs, uint32_t ids[LMB_SHADOW_PAIRS], const lmb_scene *scene,
+                           int pixel, uint32_t id)
+{
+    const int to = pairs->count;
+    lmb_triangle t;
+    int same = to - 1;
+    while (same >= 0 && ids[same] != id) {
+        --same;
+    }
+    if (same >= 0) {
+        for (int i = 0; i < 9; ++i) {
+            pairs->corner[i / 3][i % 3][to] = pairs->corner[i / 3][i % 3][same];
+        }
+    } else {
+        if (!lmb_triangle_fetch(&t, scene, id) || (t.material->flags & LMB_ALPHA_MASK) != 0) {
+            return 0;
+        }
+        for (int c = 0; c < 3; ++c) {
+            pairs->corner[c][0][to] = t.corner[c].x;
+            pairs->corner[c][1][to] = t.corner[c].y;
+            pairs->corner[c][2][to] = t.corner[c].z;
+        }
+    }
+    ids[to] = id;
+    pairs->pixel[to] = pixel;
+    ++pairs->count;
+    return 1;
+}
+
+/* Answers for the pixels `some` from `first` on. */
+static shadow_some ask_some(const lmb_shadow_query *query, const lmb_kernels *kernels, const lmb_tile *tile, int first,
+                            uint32_t some, uint32_t (*seen)[LMB_SHADOW_PIXELS], const lmb_view *map_view)
+{
+    const int is_far = light_kind_is(query->light->kind, LIGHT_FAR);
+    shadow_some out = {0, 0, 0, 0};
+    lmb_shadow_pairs pairs;
+    uint32_t ids[LMB_SHADOW_PAIRS];
+    memset(&pairs, 0, sizeof pairs);
+    pairs.is_far = is_far;
+    pairs.is_wide = map_view->kind == LMB_PERSPECTIVE;
+    pairs.light = is_far ? map_view->back : query->light->position;
+    pairs.eye = query->view->eye;
+    for (uint32_t bits = some; bits != 0; bits &= bits - 1) {
+        const int at = lowest_bit(bits);
+        for (int q = 0; q < 4; ++q) {
+            const uint32_t id = seen[q][at];
+            int known = 0;
+            for (int p = 0; p < q; ++p) {
+                known |= seen[p][at] == id;
+            }
+            if (id == tile->id[first + at]) {
+                out.own |= 1u << at;
+            } else if (id != 0 && !known && !add_shadow_pair(&pairs, ids, query->scene, first + at, id)) {
+                out.unclear |= 1u << at;
+            }
+            if (pairs.count == LMB_SHADOW_PAIRS) {
+                ask_shadow_pairs(&out, &pairs, kernels, tile, first);
+            }
+        }
+    }
+    ask_shadow_pairs(&out, &pairs, kernels, tile, first);
+    return out;
+}
+
+/* A face of the map for the kernel. */
+static lmb_shadow_job shadow_job_of(const lmb_shadow_query *query, int32_t face)
+{
+    const lmb_shadow_map *map = query->map;
+    const lmb_fill_window w = lmb_target_window(&map->face[face], &map->view[face]);
+    const int is_16 = w.first.id_format == LMB_ID16, bytes = is_16 ? 2 : 4;
+    const lmb_shadow_job job = {.view = &map->view[face],
+                                .id = w.first.id,
+                                .row = w.id_row / bytes,
+                                .tile = w.id_tile / bytes,
+                                .step = w.first.id_step,
+                                .is_16 = is_16,
+                                .face = map->faces > 1 ? face : -1,
+                                .light = query->light->position,
+                                .size = (float)map->size};
+    return job;
+}
+
+/* Masks of LMB_SHADOW_PIXELS pixels: lit, lit in doubt, and those that only lmb_is_lit knows. */
+typedef struct shadow_lit {
+    uint32_t lit, doubtful, unclear;
+} shadow_lit;
+
+NOINLINE shadow_lit lit_of_some(const lmb_shadow_query *query, const lmb_kernels *kernels, const lmb_tile *tile,
+                                int first, uint32_t asked)
+{
+    uint32_t seen[4][LMB_SHADOW_PIXELS], in;
+    shadow_lit out = {0, 0, 0};
+    for (uint32_t left = asked; left != 0; left &= ~in) {
+        const int k = lowest_bit(left);
+        const int32_t f =
+            choose_shadow_face(query->map, sub3(tile_vec(tile->position, first + k), query->light->position));
+        const lmb_shadow_job job = shadow_job_of(query, f);
+        in = 1u << k;
+        if ((query->map->drawn >> f & 1u) == 0) { /* nothing shadows it */
+            out.lit |= in;
+            continue;
+        }
+        const uint32_t own = kernels->shadow_own(&in, seen, tile, first, left, &job), some = in & ~own;
+        const shadow_some to = ask_some(query, kernels, tile, first, some, seen, job.view);
+        const uint32_t clear = some & ~to.unclear & (to.shadows | to.own | to.over), lit = clear & ~to.shadows;
+        out.lit |= own | lit;
+        out.doubtful |= lit & ~to.own;
+        out.unclear |= some & ~clear;
+        in |= 1u << k;
+    }
+    return out;
+}
+
+uint64_t lmb_shadow_lit(uint64_t *doubtful, lmb_shadow_query *query, const lmb_kernels *kernels, const lmb_tile *tile,
+                        uint64_t asked)
+{
+    const int nested = query->map->faces > 1 && light_kind_is(query->light->kind, LIGHT_FAR);
+    uint64_t out = 0, unclear = nested ? asked : 0;
+    *doubtful = 0;
+    for (int first = 0; first < LMB_TILE_PIXELS && !nested; first += LMB_SHADOW_PIXELS) {
+        const uint32_t some = (uint32_t)(asked >> first) & ((1u << LMB_SHADOW_PIXELS) - 1);
+        const shadow_lit l = lit_of_some(query, kernels, tile, first, some);
+        out |= (uint64_t)l.lit << first;
+        *doubtful |= (uint64_t)l.doubtful << first;
+        unclear |= (uint64_t)l.unclear << first;
+    }
+    for (; unclear != 0; unclear &= unclear - 1) {
+        const int k = lowest_bit_64(unclear), lit = is_lit_at(query, tile, k);
+        out |= (uint64_t)(lit != 0) << k;
+        *doubtful |= (uint64_t)(lit == LMB_LIT_IN_DOUBT) << k;
+    }
+    return out;
+}
+
+#endif

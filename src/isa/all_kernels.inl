@@ -18,6 +18,9 @@
 #include "../raster/masked.inl"
 #endif
 #include "../direct/direct.inl"
+#if LMB_SHADOW_LANES
+#include "../direct/shadow.inl"
+#endif
 #if LMB_BOUNCE
 #include "../bounce/gather.inl"
 #endif
@@ -83,6 +86,12 @@ const lmb_kernels KERNEL(lmb_kernels) = {
     KERNEL(resolve),
     KERNEL(texture),
     KERNEL(direct),
+#if LMB_SHADOW_LANES
+    KERNEL(shadow_own),
+    KERNEL(shadow_ask),
+    KERNEL(direct_shown),
+    KERNEL(direct_add),
+#endif
 #if LMB_BOUNCE
     KERNEL(gather),
     KERNEL(gather_near),

@@ -266,6 +266,41 @@ typedef struct lmb_direct_job {
     int32_t kind;
 } lmb_direct_job;
 
+/* 1: tiles are tested against shadow maps by lanes. One lane is slower than a loop over pixels. */
+#define LMB_SHADOW_LANES (LMB_FACETS && LMB_PLAIN_LANES > 1)
+
+/* One face of a shadow map. */
+typedef struct lmb_shadow_job {
+    const lmb_view *view;
+    const void *id;
+    int32_t row, tile, step; /* ids from a row of tiles, a tile and a row of texels to the next one */
+    int32_t is_16;           /* 1: LMB_ID16 */
+    int32_t face;            /* of a cube; -1: the map has one face */
+    lmb_vec3 light;          /* position, for the faces of a cube */
+    float size;              /* texels */
+} lmb_shadow_job;
+
+enum { LMB_SHADOW_PIXELS = 16, LMB_SHADOW_PAIRS = 16 }; /* at least the lanes of each backend */
+
+/* Pixels of a tile, and triangles that may shadow them. */
+typedef struct lmb_shadow_pairs {
+    float corner[3][3][LMB_SHADOW_PAIRS]; /* [corner][axis], world */
+    int32_t pixel[LMB_SHADOW_PAIRS];
+    int32_t count;
+    int32_t is_far, is_wide; /* the light is directional; the map is perspective */
+    lmb_vec3 light, eye;     /* light: its position, or the direction to it */
+} lmb_shadow_pairs;
+
+/* A bit a pair: the triangle's plane contains the pixel's place; the triangle shadows the pixel, if it is opaque; it
+ * lies over the pixel in the map, but does not shadow it. `shadows` and `over` are wrong if `through` is set. */
+typedef struct lmb_shadow_answers {
+    uint32_t through, shadows, over;
+} lmb_shadow_answers;
+
+/* Rounding of a pixel's place: shares of the distance from the eye, and of the coordinates. */
+#define SHADOW_NOISE_PIXEL 3.0517578e-5f
+#define SHADOW_NOISE_PLACE 2.3841858e-7f
+
 /* The pixels of a tile that share a cut of the light tree. */
 typedef struct lmb_many_lights_job {
     lmb_vec3 middle, half; /* m: box of the pixels */
@@ -507,6 +542,17 @@ struct lmb_kernels {
     void (*texture)(lmb_tile *inout, const lmb_resolve_batch *batch, const lmb_texture *texture);
     /* Unshadowed irradiance of each pixel, W/m2. */
     void (*direct)(lmb_irradiance *out, const lmb_tile *tile, const lmb_direct_job *job);
+#if LMB_SHADOW_LANES
+    /* Of LMB_SHADOW_PIXELS pixels from `first` on, returns those that a face of the map does not shadow for certain.
+     * *in: those in the face. seen: ids of the four texels around the others. */
+    uint32_t (*shadow_own)(uint32_t *in, uint32_t (*seen)[LMB_SHADOW_PIXELS], const lmb_tile *tile, int first,
+                           uint32_t asked, const lmb_shadow_job *job);
+    void (*shadow_ask)(lmb_shadow_answers *out, const lmb_shadow_pairs *pairs, const lmb_tile *tile);
+    /* Pixels with a surface and light. */
+    uint64_t (*direct_shown)(const lmb_irradiance *light, const lmb_tile *tile);
+    /* Adds the light of some pixels. */
+    void (*direct_add)(lmb_irradiance *inout, const lmb_irradiance *light, uint64_t some);
+#endif
 #if LMB_BOUNCE
     /* Adds far pairs. Flags near pairs in scratch->near_pixels, one bit a pixel. */
     void (*gather)(lmb_irradiance *inout, lmb_gather_scratch *scratch, const lmb_tile *tile, const lmb_groups *groups,

@@ -32,8 +32,39 @@ static void draw_view(const lmb_view *v)
     world_draw(&eye, v, LMB_CULL_BACK);
 }
 
+#if LMB_SHADOW_LANES
+/* The test of a tile by lanes gives the same answers as that of each pixel, on every backend. */
+static void check_lanes(lmb_tile *tile, const lmb_view *v, const lmb_light *light)
+{
+    lmb_shadow_query query;
+    uint64_t shown = 0, lit = 0, doubtful = 0;
+    lmb_shadow_ask(&query, &map, light, &world.scene, v);
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        if (tile->id[k] != 0) {
+            const lmb_receiver r = {plane_vec(tile->position, k), plane_vec(tile->face, k), tile->id[k]};
+            const int answer = lmb_is_lit(&query, &r);
+            shown |= (uint64_t)1 << k;
+            lit |= (uint64_t)(answer != 0) << k;
+            doubtful |= (uint64_t)(answer == LMB_LIT_IN_DOUBT) << k;
+        }
+    }
+    for (int32_t m = 0; lmb_kernels_at(m) != NULL; ++m) {
+        uint64_t in_doubt = 0;
+        const uint64_t found = lmb_shadow_lit(&in_doubt, &query, lmb_kernels_at(m), tile, shown);
+        CHECK_MSG(found == lit && in_doubt == doubtful, "%s: %d of %d pixels at %d, %d",
+                  lmb_kernels_name(lmb_kernels_at(m)), (int)count_bits_64(found ^ lit),
+                  (int)count_bits_64(shown), (int)tile->x, (int)tile->y);
+    }
+}
+#else
+#define check_lanes(tile, v, light) ((void)0)
+#endif
+
+/* One tile of 32 is checked, and other ones in each picture. */
 static void shade_tile(const lmb_view *v, const lmb_light *light, int32_t x, int32_t y)
 {
+    static int turn;
+    turn += x == 0 && y == 0;
     static lmb_tile tile;
     lmb_irradiance open, shadowed;
     const lmb_kernels *k = picked_kernels();
@@ -42,6 +73,9 @@ static void shade_tile(const lmb_view *v, const lmb_light *light, int32_t x, int
     CHECK(lmb_resolve_tile(&tile, k, v, &world.scene, &eye, x, y) == LMB_OK);
     CHECK(lmb_direct_tile(&open, k, &tile, v, &world.scene, light, NULL) == LMB_OK);
     CHECK(lmb_direct_tile(&shadowed, k, &tile, v, &world.scene, light, &map) == LMB_OK);
+    if ((x + 3 * y) / LMB_TILE % 32 == turn % 32) {
+        check_lanes(&tile, v, light);
+    }
     for (int i = 0; i < LMB_TILE_PIXELS; ++i) {
         int32_t p = (y + i / LMB_TILE) * FRAME + x + i % LMB_TILE;
         seen[p].at = plane_vec(tile.position, i);
