@@ -14,6 +14,8 @@
 #define STRAY     1.6f  /* max standard deviations between two shares that count as equal */
 #define EDGE      1.0f  /* error, as a share of the light's change over a cell with several surfaces */
 #define LEAST     0.02f /* min of p (1 - p): shares of 0 and 1 are uncertain too */
+#define FLAT_TURN 1e-3f /* max difference between a flat tile's normals and the plane's, each axis */
+#define ALL_SAMPLES 0xffffu /* of a tile */
 #define SPLIT     800.0f /* over strata^2: sampling errors of shadows should not cause divisions */
 
 /* --- layout ------------------------------------------------------------------------------------------------------- */
@@ -84,7 +86,7 @@ static int is_flat(const lmb_tile *tile)
             turn[k % 4] = maxf(turn[k % 4], absf(tile->normal[c][k] - tile->face[c][0]));
         }
     }
-    if (!(maxf(maxf(turn[0], turn[1]), maxf(turn[2], turn[3])) <= 1e-3f)) {
+    if (!(maxf(maxf(turn[0], turn[1]), maxf(turn[2], turn[3])) <= FLAT_TURN)) {
         return 0;
     }
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
@@ -136,6 +138,17 @@ void lmb_live_grid_put(const live_grid *g, const lmb_tile *tile, int lobes)
         const int k = lowest_bit(bits);
         *grid_sample(g, out, k) = lmb_live_grid_surface(tile, grid_pixel(k));
     }
+}
+
+void lmb_live_grid_put_even(const live_grid *g, const lmb_live_sample *first, int32_t column, int32_t row)
+{
+    live_grid_tile *out = grid_tile(g, column, row);
+    const lmb_vec3 turn = sub3(first->normal, first->face);
+    const float largest = maxf(maxf(absf(turn.x), absf(turn.y)), absf(turn.z));
+    memset(out, 0, sizeof *out);
+    out->shown = ALL_SAMPLES;
+    out->plain = largest <= FLAT_TURN ? GRID_FLAT : 0;
+    *grid_sample(g, out, 0) = *first;
 }
 
 /* --- requested samples -------------------------------------------------------------------------------------------- */

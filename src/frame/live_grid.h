@@ -47,11 +47,19 @@ live_grid lmb_live_grid_of(const lmb_lattice *l, int32_t strata);
 lmb_live_sample lmb_live_grid_surface(const lmb_tile *tile, int k);
 
 /* Stores which samples of a tile have a surface, and the surface of those of 8 px. If you pass `lobes`, the tile is
- * gathered whole. */
+ * gathered whole. lmb_live_grid_put_even: for a tile that is not at the frame's right or lower edge, and whose pixels
+ * all show the triangle of the first one and have that pixel's normal. */
 void lmb_live_grid_put(const live_grid *g, const lmb_tile *tile, int lobes);
+void lmb_live_grid_put_even(const live_grid *g, const lmb_live_sample *first, int32_t column, int32_t row);
 
 /* Pixel of a tile at sample k. */
 static inline int grid_pixel(int k) { return k / GRID_SIDE * GRID_STEP * LMB_TILE + k % GRID_SIDE * GRID_STEP; }
+
+/* 1 if the tile lies at the right or lower edge of the frame. */
+static inline int grid_is_last(const live_grid *g, int32_t column, int32_t row)
+{
+    return column == g->columns - 1 || row == g->rows - 1;
+}
 
 /* Mask of a tile's samples that level 0 .. GRID_LEVELS - 1 requests and that are not known. */
 uint32_t lmb_live_grid_asks(const live_grid *g, int32_t column, int32_t row, int32_t level);

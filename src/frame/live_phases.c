@@ -8,6 +8,8 @@
 #include "../base/vec.h"
 #include "../bounce/points.h"
 #include "../live/live_part.h"
+#include "../raster/plane.h"
+#include "../raster/target.h"
 #include "../raster/tile.h"
 #include "../raster/triangle.h"
 #include "live_grid.h"
@@ -83,20 +85,101 @@ NOINLINE lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s, const l
     return status;
 }
 
-static lmb_status take_surfaces(const lmb_render *r, lmb_band_scratch *s, const live_grid *g, int32_t row)
+/* The last triangle that filled a tile. */
+typedef struct filling {
+    uint32_t id;
+    int is_flat;
+    lmb_plane plane;
+    lmb_live_sample surface; /* of the last tile's first pixel */
+} filling;
+
+/* Id of the triangle that fills a tile; otherwise 0. */
+static uint32_t id_that_fills(const lmb_target *eye, int32_t column, int32_t row)
+{
+    const lmb_fill_tile t = lmb_target_tile(eye, column - eye->x0 / LMB_TILE, row - eye->y0 / LMB_TILE);
+    const int is_16 = t.id_format == LMB_ID16;
+    const uint32_t id = is_16 ? *(const uint16_t *)t.id : *(const uint32_t *)t.id;
+    const uint64_t all = (uint64_t)id * (is_16 ? UINT64_C(0x0001000100010001) : UINT64_C(0x0000000100000001));
+    const size_t bytes = is_16 ? LMB_TILE * sizeof(uint16_t) : LMB_TILE * sizeof(uint32_t);
+    uint64_t differ = 0, some;
+    for (int y = 0; y < LMB_TILE && differ == 0; ++y) {
+        const uint8_t *at = (const uint8_t *)t.id + (ptrdiff_t)y * t.id_step * (ptrdiff_t)(bytes / LMB_TILE);
+        for (size_t x = 0; x < bytes; x += sizeof some) {
+            memcpy(&some, at + x, sizeof some);
+            differ |= some ^ all;
+        }
+    }
+    return differ == 0 ? id : 0;
+}
+
+/* Selects another triangle. The surface is that of the current tile. */
+static void fill_by(filling *out, const lmb_render *r, const lmb_tile *tile, uint32_t id)
 {
     const lmb_frame *f = &r->frame;
-    lmb_target *eye = &s->live->window;
-    lmb_status status = lmb_render_view_band(r, eye, &f->eye, row);
+    lmb_triangle t;
+    lmb_rays rays;
+    out->id = id;
+    out->is_flat = lmb_triangle_is_flat(f->scene, id) && lmb_triangle_fetch(&t, f->scene, id);
+    if (out->is_flat) {
+        lmb_resolve_rays(&rays, &f->view, tile->x, tile->y);
+        lmb_resolve_plane(&out->plane, t.corner, &rays);
+        out->surface = lmb_live_grid_surface(tile, 0);
+    }
+}
+
+/* Moves the surface to the first pixel of another tile, by the formula of lmb_resolve_tile. */
+static void fill_at(filling *inout, const lmb_view *view, int32_t x, int32_t y)
+{
+    const lmb_plane *p = &inout->plane;
+    lmb_rays rays;
+    lmb_resolve_rays(&rays, view, x, y);
+    const float slope = dot3(p->plane, rays.direction), height = dot3(p->plane, sub3(p->corner, rays.origin)),
+                w = clampf(height / (slope * slope < 1e-36f ? 1e-18f : slope), p->w_min, p->w_max);
+    inout->surface.position = add3(add3(rays.origin, mul3(rays.direction, w)), rays.eye);
+}
+
+/* Stores the surfaces of a tile. Most tiles of a room are filled by the triangle that fills the tile before. */
+static lmb_status take_own_surface(filling *last, const lmb_render *r, lmb_band_scratch *s, const live_grid *g,
+                               int32_t column, int32_t row)
+{
+    const lmb_frame *f = &r->frame;
+    const lmb_target *eye = &s->live->window;
+    const int32_t x = column * LMB_TILE, y = row * LMB_TILE;
+    const uint32_t id = grid_is_last(g, column, row) || requires_glossy(r) ? 0 : id_that_fills(eye, column, row);
+    if (id != 0 && last->id == id && last->is_flat) {
+        fill_at(last, &f->view, x, y);
+        lmb_live_grid_put_even(g, &last->surface, column, row);
+        return LMB_OK;
+    }
+    const lmb_status status = lmb_resolve_tile(&s->tile, f->kernels, &f->view, f->scene, eye, x, y);
+    if (status == LMB_OK) {
+        lmb_live_grid_put(g, &s->tile,
+                          requires_glossy(r) && lmb_glossy_tile(&s->glossy, &s->tile, &f->view, f->scene));
+    }
+    if (status == LMB_OK && id != 0 && last->id != id) {
+        fill_by(last, r, &s->tile, id);
+    }
+    return status;
+}
+
+NOINLINE lmb_status take_row(const lmb_render *r, lmb_band_scratch *s, const live_grid *g, int32_t row)
+{
+    filling last;
+    lmb_status status = LMB_OK;
+    last.id = 0;
     for (int32_t column = 0; column < g->columns && status == LMB_OK; ++column) {
-        status = lmb_resolve_tile(&s->tile, f->kernels, &f->view, f->scene, eye, column * LMB_TILE, row * LMB_TILE);
+        status = take_own_surface(&last, r, s, g, column, row);
         if (status == LMB_OK) {
-            const int lobes = requires_glossy(r) && lmb_glossy_tile(&s->glossy, &s->tile, &f->view, f->scene);
-            lmb_live_grid_put(g, &s->tile, lobes);
             status = light_tile(r, s, g, column, row, NULL, lmb_live_grid_asks(g, column, row, 0));
         }
     }
     return status;
+}
+
+static lmb_status take_surfaces(const lmb_render *r, lmb_band_scratch *s, const live_grid *g, int32_t row)
+{
+    const lmb_status status = lmb_render_view_band(r, &s->live->window, &r->frame.eye, row);
+    return status == LMB_OK ? take_row(r, s, g, row) : status;
 }
 
 /* Lights the samples of a row of tiles that level 1, 2 or 3 requests. */

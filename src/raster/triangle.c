@@ -1,6 +1,8 @@
 /* triangle.c: from an id back to the triangle. Layer 3. */
 #include "triangle.h"
 
+#include <string.h>
+
 #include "tile.h"
 
 const lmb_instance *lmb_instance_of(const lmb_scene *scene, uint32_t id)
@@ -33,6 +35,21 @@ int lmb_triangle_fetch(lmb_triangle *out, const lmb_scene *scene, uint32_t id)
     const lmb_instance *instance = scene != NULL ? lmb_instance_of(scene, id) : NULL;
     return instance != NULL && out != NULL && triangle_of(out, scene, instance, id);
 }
+
+#if LMB_LIVE
+int lmb_triangle_is_flat(const lmb_scene *scene, uint32_t id)
+{
+    lmb_triangle t;
+    const int16_t *n;
+    if (!lmb_triangle_fetch(&t, scene, id)) {
+        return 0;
+    }
+    n = t.mesh->normals;
+    return t.material->normal_scale == 0.0f &&
+           (n == NULL || (memcmp(n + 2 * (size_t)t.vertex[0], n + 2 * (size_t)t.vertex[1], 2 * sizeof *n) == 0 &&
+                          memcmp(n + 2 * (size_t)t.vertex[0], n + 2 * (size_t)t.vertex[2], 2 * sizeof *n) == 0));
+}
+#endif
 
 #if LMB_TREES || LMB_TRANSFER || LMB_MIXED
 int lmb_triangle_shape(lmb_vec3 *normal, float *area, const lmb_triangle *t)

@@ -20,6 +20,9 @@ const lmb_material *lmb_material_of(const lmb_scene *scene, uint32_t id);
 uint64_t lmb_tile_onto_triangles(lmb_tile *inout, const lmb_scene *scene);
 lmb_vec3 lmb_place_onto_triangle(const lmb_scene *scene, uint32_t id, lmb_vec3 at); /* the same for one place */
 
+/* 1 if all points of a triangle have one normal: its corners do, and no map changes it. */
+int lmb_triangle_is_flat(const lmb_scene *scene, uint32_t id);
+
 /* lmb_triangle_fetch for a known instance. */
 static inline int triangle_of(lmb_triangle *out, const lmb_scene *scene, const lmb_instance *instance, uint32_t id)
 {

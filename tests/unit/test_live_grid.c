@@ -51,6 +51,28 @@ static void put_wall(int32_t bent)
     }
 }
 
+/* A tile that one flat triangle fills is stored by the first pixel as by all of them. */
+static void test_even(void)
+{
+    for (int turned = 0; turned < 2; ++turned) {
+        put_wall(1000);
+        const lmb_live_sample before = *grid_sample(&grid, &grid.tile[COLUMNS + 1], 0);
+        lmb_tile *t = &tile[COLUMNS + 1];
+        for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+            t->normal[0][k] += 0.01f * (float)turned;
+        }
+        lmb_live_grid_put(&grid, t, 0);
+        const live_grid_tile by_all = grid.tile[COLUMNS + 1];
+        const lmb_live_sample first = *grid_sample(&grid, &grid.tile[COLUMNS + 1], 0);
+        memset(&grid.tile[COLUMNS + 1], 0x5a, sizeof by_all);
+        *grid_sample(&grid, &grid.tile[COLUMNS + 1], 0) = before;
+        lmb_live_grid_put_even(&grid, &first, 1, 1);
+        CHECK(memcmp(&by_all, &grid.tile[COLUMNS + 1], sizeof by_all) == 0);
+        CHECK(memcmp(&first, grid_sample(&grid, &grid.tile[COLUMNS + 1], 0), sizeof first) == 0);
+        CHECK(by_all.plain == (turned ? 0 : GRID_FLAT));
+    }
+}
+
 /* Evaluates the samples of a level. Returns their number. */
 static int light_level(int32_t level, light_at at)
 {
@@ -274,6 +296,7 @@ static void test_backends(void)
 
 void test_live_grid(void)
 {
+    test_even();
     test_walls(lmb_kernels_pick());
     test_edge(lmb_kernels_pick());
     test_noise(LMB_TILE, 0);
