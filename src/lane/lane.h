@@ -223,6 +223,22 @@ static inline void lane_scan16(float out[16], const float v[16], float base)
 }
 #endif
 
+/* `low` in the low 16 bits, `high` in the high ones. */
+static inline lanei lanei_halves(lanei low, lanei high)
+{
+    return lanei_or(lanei_and(low, lanei_splat(0xffff)), lanei_mul(high, lanei_splat(1 << 16)));
+}
+
+/* The product of the low halves plus that of the high halves, all signed. Backends may override this. */
+#ifndef LANE_ADDS_HALVES
+static inline lanei lanei_add_halves(lanei a, lanei b)
+{
+    const lanei up = lanei_splat(1 << 16), low_a = lanei_shift(lanei_mul(a, up), 16),
+                low_b = lanei_shift(lanei_mul(b, up), 16);
+    return lanei_add(lanei_mul(low_a, low_b), lanei_mul(lanei_shift(a, 16), lanei_shift(b, 16)));
+}
+#endif
+
 /* A word each. Backends may override this. */
 #ifndef LANE_GATHERS_I32
 static inline lanei lanei_gather_i32(const int32_t *p, lanei at)

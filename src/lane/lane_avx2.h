@@ -48,6 +48,8 @@ static inline lanei lanei_add(lanei a, lanei b) { return _mm256_add_epi32(a, b);
 static inline lanei lanei_or(lanei a, lanei b) { return _mm256_or_si256(a, b); }
 static inline lanei lanei_and(lanei a, lanei b) { return _mm256_and_si256(a, b); }
 static inline lanei lanei_mul(lanei a, lanei b) { return _mm256_mullo_epi32(a, b); }
+#define LANE_ADDS_HALVES 1
+static inline lanei lanei_add_halves(lanei a, lanei b) { return _mm256_madd_epi16(a, b); }
 static inline lanei lanei_sub(lanei a, lanei b) { return _mm256_sub_epi32(a, b); }
 static inline lanei lanei_min(lanei a, lanei b) { return _mm256_min_epi32(a, b); }
 static inline lanei lanei_max(lanei a, lanei b) { return _mm256_max_epi32(a, b); }

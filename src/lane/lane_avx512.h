@@ -44,6 +44,8 @@ static inline lanei lanei_add(lanei a, lanei b) { return _mm512_add_epi32(a, b);
 static inline lanei lanei_or(lanei a, lanei b) { return _mm512_or_si512(a, b); }
 static inline lanei lanei_and(lanei a, lanei b) { return _mm512_and_si512(a, b); }
 static inline lanei lanei_mul(lanei a, lanei b) { return _mm512_mullo_epi32(a, b); }
+#define LANE_ADDS_HALVES 1
+static inline lanei lanei_add_halves(lanei a, lanei b) { return _mm512_madd_epi16(a, b); }
 static inline lanei lanei_sub(lanei a, lanei b) { return _mm512_sub_epi32(a, b); }
 static inline lanei lanei_min(lanei a, lanei b) { return _mm512_min_epi32(a, b); }
 static inline lanei lanei_max(lanei a, lanei b) { return _mm512_max_epi32(a, b); }

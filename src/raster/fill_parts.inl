@@ -16,6 +16,7 @@ enum { PARTS_MORE = 3, PARTS_LESS = 3 };
 
 typedef struct fill_slopes {
     float dx[LMB_BATCH], dy[LMB_BATCH];
+    int32_t edge[3][LMB_BATCH]; /* rows_slope of the edges */
 } fill_slopes;
 
 /* The nearest depth of planes in a tile with the nearest point (x, y), px, computed as for pixels. If the plane has no
@@ -24,13 +25,6 @@ LANE_INLINE lane parts_nearest(lane d, lane dx, lane dy, lane x, lane y, lane d_
 {
     const lane at = lane_add(lane_add(d, lane_mul(dy, y)), lane_mul(dx, x));
     return lane_pick(lane_lt(at, d_max), lane_max(at, d_min), d_max);
-}
-
-/* The largest gain of an edge from a box's first pixel to another. */
-LANE_INLINE lanei parts_gain(lanei ex, lanei ey, lanei width, lanei height)
-{
-    const lanei zero = lanei_splat(0);
-    return lanei_add(lanei_max(lanei_mul(ex, width), zero), lanei_max(lanei_mul(ey, height), zero));
 }
 
 /* (x, y): px of the frame, first pixels of the tiles. */
@@ -61,12 +55,14 @@ LANE_INLINE lane_mask parts_set(float *depth, lane_mask halves[2], const fill_sl
     lanei inside = lanei_or(width, height);
     halves[0] = lanei_lt(bottom, lanei_splat(LMB_TILE / 2));
     halves[1] = lanei_lt(lanei_splat(LMB_TILE / 2 - 1), top);
+    /* The part of the box in the tile: from its first pixel, no edge gains more than by the steps that raise it. */
+    const lanei corner = rows_way(lanei_add(to_x, left), lanei_add(to_y, top)), box = rows_way(width, height);
     for (int i = 0; i < 3; ++i) {
-        const lanei ex = lanei_load(b->ex[i] + k), ey = lanei_load(b->ey[i] + k);
-        const lanei e =
-            lanei_add(lanei_load(b->e[i] + k), lanei_add(lanei_mul(ex, to_x), lanei_mul(ey, to_y)));
-        const lanei corner = lanei_add(e, lanei_add(lanei_mul(ex, left), lanei_mul(ey, top)));
-        inside = lanei_or(inside, lanei_add(corner, parts_gain(ex, ey, width, height)));
+        const lanei first = rows_gain(lanei_load(slopes->edge[i] + k), corner);
+        const lanei rise =
+            rows_slope(lanei_max(lanei_load(b->ex[i] + k), zero), lanei_max(lanei_load(b->ey[i] + k), zero));
+        const lanei gain = rows_gain(rise, box);
+        inside = lanei_or(inside, lanei_add(lanei_add(lanei_load(b->e[i] + k), first), gain));
     }
     const lane d = parts_depth(w, b, k, x, y);
     lane_store(depth + k, d);
@@ -137,6 +133,9 @@ LANE_INLINE void parts_slopes(fill_slopes *out, const lmb_batch *b, uint32_t bit
     for (int k = 0; k < LMB_BATCH && bits >> k != 0; k += LANES) {
         lane_store(out->dx + k, lane_from_double(laned_load(b->dx + k)));
         lane_store(out->dy + k, lane_from_double(laned_load(b->dy + k)));
+        for (int i = 0; i < 3; ++i) {
+            lanei_store(out->edge[i] + k, rows_slope(lanei_load(b->ex[i] + k), lanei_load(b->ey[i] + k)));
+        }
     }
 }
 
@@ -156,6 +155,17 @@ typedef struct fill_places {
 
 /* Order of tiles: the first four go together, because most triangles have no others; then the tiles beside these. */
 static const uint8_t parts_order[PARTS_TILES] = {0, 1, 3, 4, 2, 5, 6, 7, 8};
+
+/* Ways from a triangle's first tile to the pixels of a vector: the first rows of these tiles, and of their lower
+ * halves. */
+#define PARTS_ROW(x, y) (x) + ((y) << 16), (x) + 1 + ((y) << 16), (x) + 2 + ((y) << 16), (x) + 3 + ((y) << 16), \
+                        (x) + 4 + ((y) << 16), (x) + 5 + ((y) << 16), (x) + 6 + ((y) << 16), (x) + 7 + ((y) << 16)
+#define PARTS_ROWS(x, y) {{PARTS_ROW(x, y), PARTS_ROW(x, (y) + 1)}, {PARTS_ROW(x, (y) + 4), PARTS_ROW(x, (y) + 5)}}
+static const int32_t parts_at[PARTS_TILES][2][16] = {
+    PARTS_ROWS(0, 0), PARTS_ROWS(8, 0), PARTS_ROWS(0, 8), PARTS_ROWS(8, 8), PARTS_ROWS(16, 0),
+    PARTS_ROWS(16, 8), PARTS_ROWS(0, 16), PARTS_ROWS(8, 16), PARTS_ROWS(16, 16)};
+#undef PARTS_ROW
+#undef PARTS_ROWS
 
 LANE_INLINE lanei parts_address(const lmb_fill_window *w, const lmb_batch *b, int k, int p)
 {
@@ -191,34 +201,29 @@ LANE_INLINE void parts_place(fill_places *out, const fill_slopes *slopes, const 
     out->rows[ROWS_LOWER] |= (uint64_t)(seen & lower) << (i * LMB_BATCH);
 }
 
-/* An edge at the pixels of tile p's first vector, or of the lower half's. */
-LANE_INLINE lanei parts_edge(const lmb_batch *b, int i, int k, int p, int rows)
+/* An edge at the pixels of a vector, from a triangle's first tile. */
+LANE_INLINE lanei parts_edge(const fill_slopes *slopes, const lmb_batch *b, int i, int k, const int32_t *at)
 {
-#define PARTS_8(n) n, n, n, n, n, n, n, n
-    static const int32_t column[PARTS_SIDE][16] = {{0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7},
-                                                   {8, 9, 10, 11, 12, 13, 14, 15, 8, 9, 10, 11, 12, 13, 14, 15},
-                                                   {16, 17, 18, 19, 20, 21, 22, 23, 16, 17, 18, 19, 20, 21, 22, 23}};
-    static const int32_t row[2 * PARTS_SIDE][16] = {{PARTS_8(0), PARTS_8(1)},   {PARTS_8(4), PARTS_8(5)},
-                                                    {PARTS_8(8), PARTS_8(9)},   {PARTS_8(12), PARTS_8(13)},
-                                                    {PARTS_8(16), PARTS_8(17)}, {PARTS_8(20), PARTS_8(21)}};
-#undef PARTS_8
-    const lanei x = lanei_load(column[p % PARTS_SIDE]), y = lanei_load(row[p / PARTS_SIDE * 2 + (rows == ROWS_LOWER)]);
-    return lanei_add(lanei_splat(b->e[i][k]),
-                     lanei_add(lanei_mul(lanei_splat(b->ex[i][k]), x), lanei_mul(lanei_splat(b->ey[i][k]), y)));
+    return lanei_add(lanei_splat(b->e[i][k]), rows_gain(lanei_splat(slopes->edge[i][k]), lanei_load(at)));
 }
 
-/* Draws tile i of a group, which is tile p of triangle k. */
+LANE_INLINE void parts_edges(fill_rows *r, const fill_slopes *slopes, const lmb_batch *b, int k, int i, int rows)
+{
+    const int32_t *at = parts_at[i][rows == ROWS_LOWER];
+    r->e0 = parts_edge(slopes, b, 0, k, at);
+    r->e1 = parts_edge(slopes, b, 1, k, at);
+    r->e2 = parts_edge(slopes, b, 2, k, at);
+    r->down0 = lanei_splat(b->ey[0][k] * FILL_ROWS);
+    r->down1 = lanei_splat(b->ey[1][k] * FILL_ROWS);
+    r->down2 = lanei_splat(b->ey[2][k] * FILL_ROWS);
+}
+
+/* Draws tile i of a group that starts at tile `first` of parts_order. */
 LANE_INLINE void parts_put(const fill_places *places, const fill_slopes *slopes, const lmb_fill_window *w,
-                           const lmb_batch *b, int k, int i, int p, int rows, int kind,
-                            int bounded)
+                           const lmb_batch *b, int k, int i, int first, int rows, int kind, int bounded)
 {
     fill_rows r;
-    r.e0 = parts_edge(b, 0, k, p, rows);
-    r.e1 = parts_edge(b, 1, k, p, rows);
-    r.e2 = parts_edge(b, 2, k, p, rows);
-    r.down0 = lanei_splat(b->ey[0][k] * FILL_ROWS);
-    r.down1 = lanei_splat(b->ey[1][k] * FILL_ROWS);
-    r.down2 = lanei_splat(b->ey[2][k] * FILL_ROWS);
+    parts_edges(&r, slopes, b, k, first + i, rows);
     r.step_d = lane_mul(lane_splat(slopes->dx[k]), lane_column(0));
     r.d_min = lane_splat(b->d_min[k]);
     r.d_max = lane_splat(b->d_max[k]);
@@ -231,6 +236,7 @@ LANE_INLINE void parts_put(const fill_places *places, const fill_slopes *slopes,
     rows_draw(&r, places->d[i][k], slopes->dy[k], rows, kind);
 #if LMB_CULLING
     if (bounded && w->bounds == LMB_BOUNDS_RAISED) {
+        const int p = parts_order[first + i];
         const ptrdiff_t across = ((b->x0[k] - w->x0) >> 3) + p % PARTS_SIDE,
                         down = ((b->y0[k] - w->y0) >> 3) + p / PARTS_SIDE;
         rows_raise(w->farthest + down * w->tiles_x + across, r.lowest);
@@ -286,7 +292,7 @@ LANE_INLINE void parts_put_all(const fill_places *places, const fill_slopes *slo
             parts_soon(places, w, parts_lowest(ahead), rows, kind);
             ahead &= ahead - 1;
         }
-        parts_put(places, slopes, w, b, k, i, parts_order[first + i], rows, kind, bounded);
+        parts_put(places, slopes, w, b, k, i, first, rows, kind, bounded);
     }
 }
 
@@ -387,15 +393,9 @@ LANE_INLINE void parts_draw_from(const lmb_fill_window *w, const lmb_batch *b, i
 LANE_INLINE void parts_put_id(const fill_found *f, const lmb_fill_window *w, const lmb_batch *b, int k, int i, int rows,
                               int bounded)
 {
-    const int p = parts_order[i];
     const ptrdiff_t at = (ptrdiff_t)f->at[k] + f->step[i];
     fill_rows r;
-    r.e0 = parts_edge(b, 0, k, p, rows);
-    r.e1 = parts_edge(b, 1, k, p, rows);
-    r.e2 = parts_edge(b, 2, k, p, rows);
-    r.down0 = lanei_splat(b->ey[0][k] * FILL_ROWS);
-    r.down1 = lanei_splat(b->ey[1][k] * FILL_ROWS);
-    r.down2 = lanei_splat(b->ey[2][k] * FILL_ROWS);
+    parts_edges(&r, &f->slopes, b, k, i, rows);
     r.step_d = lane_mul(lane_splat(f->slopes.dx[k]), lane_column(0));
     r.d_min = lane_splat(b->d_min[k]);
     r.d_max = lane_splat(b->d_max[k]);
@@ -405,6 +405,7 @@ LANE_INLINE void parts_put_id(const fill_found *f, const lmb_fill_window *w, con
     rows_draw(&r, f->d[i][k], f->slopes.dy[k], rows, FILL_ID32);
 #if LMB_CULLING
     if (bounded && w->bounds == LMB_BOUNDS_RAISED) {
+        const int p = parts_order[i];
         const ptrdiff_t across = ((b->x0[k] - w->x0) >> 3) + p % PARTS_SIDE,
                         down = ((b->y0[k] - w->y0) >> 3) + p / PARTS_SIDE;
         rows_raise(w->farthest + down * w->tiles_x + across, r.lowest);

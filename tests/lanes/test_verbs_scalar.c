@@ -183,6 +183,8 @@ static void test_rules(void)
     CHECK(mask_bits(mask_of_bits(1u << (LANES - 1) | 1u << LANES)) == 1u << (LANES - 1));
 }
 
+static int32_t half_of(int32_t a) { return (a & 0xffff) - ((a & 0x8000) << 1); }
+
 static void test_rows(int32_t step)
 {
     static verb_input in;
@@ -195,6 +197,9 @@ static void test_rows(int32_t step)
         const int p = k / 8 * step + k % 8, mine = in.bits >> k & 1u;
         CHECK(out.row[VERB_column][k] == bits_of((float)(k % 8)) && out.row[VERB_row][k] == bits_of((float)(k / 8)));
         CHECK(out.row[VERB_i_mul][k] == (uint32_t)in.m[k] * (uint32_t)in.n[k]);
+        CHECK(out.row[VERB_halves][k] == (((uint32_t)in.i[k] & 0xffffu) | (uint32_t)in.m[k] << 16));
+        CHECK(out.row[VERB_add_halves][k] == (uint32_t)half_of(in.i[k]) * (uint32_t)half_of(in.m[k]) +
+                                                 (uint32_t)(in.i[k] >> 16) * (uint32_t)(in.m[k] >> 16));
         CHECK(out.row[VERB_load_u16][k] == bits_of((float)in.surface_u16[p]));
         CHECK(out.stored_u16[p] == (uint16_t)in.code[k]);
         CHECK(out.put_u32[p] == (mine ? in.id : in.surface_u32[p]));

@@ -83,6 +83,8 @@ static inline void run_integers(verb_output *out, const verb_input *in, int k)
     put_lane(out->row[VERB_from_int] + k, lane_from_int(i));
     put_mask(out->row[VERB_i_not_negative] + k, lanei_not_negative(i));
     put_mask(out->row[VERB_i_equal] + k, lanei_equal(i, j));
+    put_lanei(out->row[VERB_halves] + k, lanei_halves(i, lanei_load(in->m + k)));
+    put_lanei(out->row[VERB_add_halves] + k, lanei_add_halves(i, lanei_load(in->m + k)));
     put_lanei(out->row[VERB_affine] + k, lanei_affine(in->i[0], in->m[0] >> 12, in->n[0] >> 12, k));
 }
 

@@ -13,7 +13,8 @@ enum {
     TILES = CORNER_MAX / 2048 + 1,
     PX_MAX = CORNER_MAX / 256,
     E_MAX = 1 << 22,
-    STEP_MAX = 22528 /* really 16383; Eva's ranges are independent of each other */
+    STEP_MAX = 22528, /* really 16383; Eva's ranges are independent of each other */
+    WAY_MIN = -LMB_TILE * (TILES + 2), WAY_MAX = 3 * LMB_TILE - 1
 };
 
 /* snap.c covers the inputs of setup_snap's conversions; here are the results. Corner a's are split by tile, because b's
@@ -55,9 +56,46 @@ static void rows_asked(const fill_rows *r)
     /*@ assert -1073741824 <= r->e2.v[0] <= 1073741824; */
 }
 
+/* Both halves fit 16 bits. Eva does not see through halves, so a gain is that of any slope and way. */
+static lanei slope_asked(lanei ex, lanei ey)
+{
+    /*@ assert -STEP_MAX <= ex.v[0] <= STEP_MAX && -STEP_MAX <= ey.v[0] <= STEP_MAX; */
+    (void)ey;
+    return ex;
+}
+
+static lanei way_asked(lanei x, lanei y)
+{
+    /*@ assert WAY_MIN <= x.v[0] <= WAY_MAX && WAY_MIN <= y.v[0] <= WAY_MAX; */
+    (void)y;
+    return x;
+}
+
+static lanei any_gain(lanei slope, lanei way)
+{
+    lanei r;
+    r.v[0] = any_between(-STEP_MAX, STEP_MAX) * any_between(WAY_MIN, WAY_MAX);
+    r.v[0] += any_between(-STEP_MAX, STEP_MAX) * any_between(WAY_MIN, WAY_MAX);
+    (void)slope, (void)way;
+    return r;
+}
+
+#define rows_slope              slope_asked
+#define rows_way                way_asked
+#define rows_gain               any_gain
 #define rows_draw(r, d, dy, rows, kind) rows_asked(r)
 #include "../../src/raster/fill_parts.inl"
 #undef rows_draw
+
+static void ask_ways(void)
+{
+    /*@ loop unroll 300; */
+    for (int i = 0; i < PARTS_TILES * 2 * 16; ++i) {
+        const int32_t way = parts_at[i / 32][i / 16 % 2][i % 16];
+        /*@ assert 0 <= way && (way & 0xffff) <= WAY_MAX && way >> 16 <= WAY_MAX; */
+        (void)way;
+    }
+}
 
 static float depths[LMB_TILE_PIXELS];
 static uint32_t ids[LMB_TILE_PIXELS];
@@ -178,5 +216,6 @@ int main(void)
         const lmb_fill_window w = any_window(window, window);
         one_begins_at(&b, at, at, &w);
     }
+    ask_ways();
     return 0;
 }
