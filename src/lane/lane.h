@@ -239,6 +239,12 @@ static inline lanei lanei_add_halves(lanei a, lanei b)
 }
 #endif
 
+/* The square root within 2^-11 of it, for a guess that changes no result; any value for 0 and denormals. Backends may
+ * override this. */
+#ifndef LANE_GUESSES_ROOTS
+static inline lane lane_root_guess(lane a) { return lane_sqrt(a); }
+#endif
+
 /* A word each. Backends may override this. */
 #ifndef LANE_GATHERS_I32
 static inline lanei lanei_gather_i32(const int32_t *p, lanei at)

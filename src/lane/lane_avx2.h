@@ -25,6 +25,8 @@ static inline lane lane_sub(lane a, lane b) { return _mm256_sub_ps(a, b); }
 static inline lane lane_mul(lane a, lane b) { return _mm256_mul_ps(a, b); }
 static inline lane lane_div(lane a, lane b) { return _mm256_div_ps(a, b); }
 static inline lane lane_sqrt(lane a) { return _mm256_sqrt_ps(a); }
+#define LANE_GUESSES_ROOTS 1
+static inline lane lane_root_guess(lane a) { return _mm256_mul_ps(a, _mm256_rsqrt_ps(a)); }
 static inline lane lane_min(lane a, lane b) { return _mm256_min_ps(a, b); }
 static inline lane lane_max(lane a, lane b) { return _mm256_max_ps(a, b); }
 static inline lane_mask lane_lt(lane a, lane b) { return _mm256_cmp_ps(a, b, _CMP_LT_OQ); }

@@ -25,6 +25,8 @@ static inline lane lane_sub(lane a, lane b) { return _mm512_sub_ps(a, b); }
 static inline lane lane_mul(lane a, lane b) { return _mm512_mul_ps(a, b); }
 static inline lane lane_div(lane a, lane b) { return _mm512_div_ps(a, b); }
 static inline lane lane_sqrt(lane a) { return _mm512_sqrt_ps(a); }
+#define LANE_GUESSES_ROOTS 1
+static inline lane lane_root_guess(lane a) { return _mm512_mul_ps(a, _mm512_rsqrt14_ps(a)); }
 static inline lane lane_min(lane a, lane b) { return _mm512_min_ps(a, b); }
 static inline lane lane_max(lane a, lane b) { return _mm512_max_ps(a, b); }
 static inline lane_mask lane_lt(lane a, lane b) { return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ); }
