@@ -373,12 +373,12 @@ NOINLINE shadow_lit lit_of_some(const lmb_shadow_query *query, const lmb_kernels
         const int k = lowest_bit(left);
         const int32_t f =
             choose_shadow_face(query->map, sub3(tile_vec(tile->position, first + k), query->light->position));
-        const lmb_shadow_job job = shadow_job_of(query, f);
         in = 1u << k;
         if ((query->map->drawn >> f & 1u) == 0) { /* nothing shadows it */
             out.lit |= in;
             continue;
         }
+        const lmb_shadow_job job = shadow_job_of(query, f);
         const uint32_t own = kernels->shadow_own(&in, seen, tile, first, left, &job), some = in & ~own;
         const shadow_some to = ask_some(query, kernels, tile, first, some, seen, job.view);
         const uint32_t clear = some & ~to.unclear & (to.shadows | to.own | to.over), lit = clear & ~to.shadows;
