@@ -40,9 +40,10 @@ check "a plan counts the memory of live light: $live KiB, not $full" test "$live
 check "a plan of live light says that it is planned as cuts" grep -q "^live light is planned as the cuts" out.txt
 # The memory of a plan is the memory of the picture.
 for how in "--gather live" "--gather full" "--samples 4 --bounces 2" "--show direct" "--group method=zones" "--many-lights 64"; do
-    status 0 plan demo --size 32x24 --threads 2 $how
+    how="$how --size 32x24 --threads 2 --shadow-map 128 --tree 64 --elements 256"
+    status 0 plan demo $how
     all=$(awk '/^all / { print $3 }' out.txt)
-    status 0 render demo --size 32x24 --threads 2 $how -q --stats memory.json -o memory.pfm
+    status 0 render demo $how -q --stats memory.json -o memory.pfm
     check "plan $how: $all KiB" awk -F '"bytes": ' -v kib="$all" '/"bytes": / { split($2, n, ","); share = kib * 1024 / n[1] }
         END { exit !(share > 0.98 && share < 1.02) }' memory.json
 done
