@@ -67,7 +67,7 @@ static lmb_status light_sample(const lmb_render *r, lmb_band_scratch *s, lmb_liv
 }
 
 /* Lights the requested samples of a tile. tile: its surfaces; NULL: they are stored. */
-NOINLINE lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s, const live_grid *g, int32_t column,
+NOINLINE lmb_status light_live_tile(const lmb_render *r, lmb_band_scratch *s, const live_grid *g, int32_t column,
                                int32_t row, const lmb_tile *tile, uint32_t asked)
 {
     live_grid_tile *t = grid_tile(g, column, row);
@@ -170,7 +170,7 @@ NOINLINE lmb_status take_row(const lmb_render *r, lmb_band_scratch *s, const liv
     for (int32_t column = 0; column < g->columns && status == LMB_OK; ++column) {
         status = take_own_surface(&last, r, s, g, column, row);
         if (status == LMB_OK) {
-            status = light_tile(r, s, g, column, row, NULL, lmb_live_grid_asks(g, column, row, 0));
+            status = light_live_tile(r, s, g, column, row, NULL, lmb_live_grid_asks(g, column, row, 0));
         }
     }
     return status;
@@ -192,7 +192,7 @@ static lmb_status light_row(const lmb_render *r, lmb_band_scratch *s, const live
     for (int32_t column = 0; column < g->columns && status == LMB_OK; ++column) {
         const uint32_t asked = lmb_live_grid_asks(g, column, row, level);
         if (level == 1) {
-            status = light_tile(r, s, g, column, row, NULL, asked);
+            status = light_live_tile(r, s, g, column, row, NULL, asked);
             continue;
         }
         if (asked != 0 && !is_drawn) {
@@ -203,7 +203,7 @@ static lmb_status light_row(const lmb_render *r, lmb_band_scratch *s, const live
             status = lmb_resolve_tile(&s->tile, f->kernels, &f->view, f->scene, eye, column * LMB_TILE, row * LMB_TILE);
         }
         if (asked != 0 && status == LMB_OK) {
-            status = light_tile(r, s, g, column, row, &s->tile, asked);
+            status = light_live_tile(r, s, g, column, row, &s->tile, asked);
         }
     }
     return status;

@@ -130,7 +130,7 @@ static int compare(difference *d, const lmb_tile_sample *a, const lmb_tile_sampl
     return d->mean > 0.0;
 }
 
-static float share_of(const difference *d, double square)
+static float difference_share(const difference *d, double square)
 {
     return (float)((double)sqrtf((float)(square / (0.99 * 3.0 * d->count))) / (d->mean / (3.0 * d->count)));
 }
@@ -159,7 +159,7 @@ float lmb_tile_sample_error(const lmb_tile_sample *a, const lmb_tile_sample *b, 
         spread += off * off;
     }
     const double deviation = (double)sqrtf((float)(spread * places / (places - 1.0)));
-    return share_of(&d, d.square + (double)deviations * deviation);
+    return difference_share(&d, d.square + (double)deviations * deviation);
 }
 
 #endif

@@ -24,7 +24,7 @@ status 0 lambent-bench demo --runs 1 --shadow-map 64 --truth truth24.pfm --sweep
 check "a truth of one's own gives the size" grep -q -- '--size 12x8' out.txt
 # A triangle whose pixels get no bounced light: no setting has a breakdown.
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >triangle.obj
-status 0 lambent-bench triangle.obj --size 8x8 --runs 1
+status 0 lambent-bench triangle.obj --size 8x8 --runs 1 --shadow-map 64 --sweep tree=16,32
 check "no breakdown without light" lacks "^error breakdown" out.txt
 # Refused before the work: completely or not at all.
 status 1 lambent-bench demo --size 4000x4000 -o no/such/folder
