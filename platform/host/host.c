@@ -123,7 +123,8 @@ void host_print_now(const char *text, size_t size)
     struct pollfd err;
     err.fd = STDERR_FILENO;
     err.events = POLLOUT;
-    if (poll(&err, 1, 0) == 1 && err.revents == POLLOUT) {
+    /* Some systems cannot poll terminals and say POLLNVAL. */
+    if (poll(&err, 1, 0) == 1 && (err.revents & (POLLERR | POLLHUP)) == 0 && (err.revents & (POLLOUT | POLLNVAL)) != 0) {
         (void)!write(STDERR_FILENO, text, size);
     }
 }

@@ -33,8 +33,8 @@ void host_take_streams(void);
 void host_end_cleanly(void (*clean)(void));
 void host_hold_signals(int is_held);
 
-/* host_print_now: writes to stderr without buffers, which other threads may hold. Writes nothing if it would have to
- * wait: for a full pipe, or a terminal that is stopped. Safe in a signal handler. */
+/* host_print_now: writes to stderr without buffers, which other threads may hold. On POSIX, writes nothing if it would have
+ * to wait: for a full pipe, or a terminal that is stopped. Safe in a signal handler. */
 void host_print_now(const char *text, size_t size);
 
 /* host_wipe_line: overwrites the current line of stderr's terminal with blanks; safe in a signal handler. */

@@ -53,7 +53,7 @@ $(PAGE_WORK)/flags: FORCE
 	@printf '%s\n' "$$PAGE_LINE" | cmp -s - $@ || printf '%s\n' "$$PAGE_LINE" > $@
 
 # At -O0 the library is one unit: starting clang 130 times takes longer than compiling.
-PAGE_UNIT := $(if $(PAGE_OPT),$(filter src/%,$(PAGE_SRC)))
+PAGE_UNIT := $(if $(filter -O0,$(PAGE_OPT)),$(filter src/%,$(PAGE_SRC)))
 $(PAGE_WORK)/main/src.o: $(PAGE_UNIT) $(PAGE_WORK)/flags platform/web/page.mk
 	@mkdir -p $(@D)
 	@printf '#include "%s"\n' $(PAGE_UNIT) | clang $(PAGE_FLAGS) $(PAGE_OPT) -MT $@ -MF $(@:.o=.d) -x c -c - -o $@

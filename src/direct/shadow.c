@@ -258,10 +258,10 @@ static int is_lit_at(lmb_shadow_query *query, const lmb_tile *tile, int k)
 typedef struct shadow_some {
     uint32_t own;     /* a texel shows the pixel's own triangle */
     uint32_t shadows, over;
-    uint32_t unclear; /* only lmb_is_lit knows */
+    uint32_t unclear; /* need lmb_is_lit */
 } shadow_some;
 
-/* Asks about the pairs, of pixels from `first` on. */
+/* Tests the pairs. first: the pixel of bit 0. */
 static void ask_shadow_pairs(shadow_some *inout, lmb_shadow_pairs *pairs, const lmb_kernels *kernels,
                              const lmb_tile *tile, int first)
 {
@@ -359,7 +359,7 @@ static lmb_shadow_job shadow_job_of(const lmb_shadow_query *query, int32_t face)
     return job;
 }
 
-/* Masks of LMB_SHADOW_PIXELS pixels: lit, lit in doubt, and those that only lmb_is_lit knows. */
+/* Masks of LMB_SHADOW_PIXELS pixels: lit, lit in doubt, and those that need lmb_is_lit. */
 typedef struct shadow_lit {
     uint32_t lit, doubtful, unclear;
 } shadow_lit;

@@ -18,9 +18,10 @@
 #define MIN_BLEND_THRESHOLD (1.0f / 512.0f) /* thresholds of a surface that blends: min and max */
 #define MAX_BLEND_THRESHOLD (511.0f / 512.0f)
 #define MIN_PLANE_SLOPE     0.05f /* least of a tile's slopes, of the largest, to test all pixels at once */
-#define BARYCENTRIC_MARGIN  (1.0f / 64.0f) /* part of a tile's barycentrics, for rounding */
+#define BARYCENTRIC_MARGIN  (1.0f / 64.0f) /* part of the barycentrics of a tile or block, for rounding */
 
-/* Depths of triangles that are drawn ahead: less than all others of the same triangle. In 16 bits two codes less. */
+/* Depths of triangles that are drawn ahead: less than all others of the same triangle. In 16 bits two codes less. Drawn
+ * depths are normal numbers (over 1e-36 in perspective), so the factor lowers them. */
 #define FACTOR_BEHIND (1.0f - 1.0f / 4194304.0f)
 #define CODES_BEHIND  2.0f
 #define MIN_TILES_AHEAD 8 /* triangles of fewer tiles are not drawn ahead */
@@ -28,13 +29,17 @@
 /* Max texels read to test whether a tile is all hole or all solid. Its 64 pixels read 256. */
 #define TILE_TEXELS 128u
 
-/* Blocks of tiles are tested at once, then halved; max texels read for one. Triangles of fewer tiles have none. A
- * triangle may have MIN_MISSES blocks that are neither hole nor solid, one more for every MISS_TILES of its tiles, and
- * one for every EARNED_TILES in blocks that were hole or solid; then no more are halved, and after WHOLE_MISSES more
- * none is tested. */
+/* Blocks of tiles are tested at once, then halved. Triangles of fewer than MIN_BLOCK_TILES have none. */
 enum { BLOCK_COLUMNS = 8, BLOCK_ROWS = 4, BLOCK_HALVINGS = 4, MIN_BLOCK_TILES = 8 };
-enum { MIN_MISSES = 2, MISS_TILES = 64, EARNED_TILES = 4, WHOLE_MISSES = 3 };
-#define BLOCK_TEXELS 1024u
+#define BLOCK_TEXELS 1024u /* max texels read for one block */
+
+/* A miss is a block that is neither hole nor solid. After a triangle's misses, its blocks are no longer halved. */
+enum {
+    MIN_MISSES = 2,
+    MISS_TILES = 64,  /* one more miss for every so many tiles of the triangle */
+    EARNED_TILES = 4, /* one more for every so many tiles in blocks that were hole or solid */
+    WHOLE_MISSES = 3  /* after so many more misses, no block is tested */
+};
 
 /* Pieces of the current tile that need no test of single pixels. Before the first pixel passes the depth test the tile
  * is not examined. */
@@ -43,7 +48,7 @@ enum { COVERS_SOME = 0, COVERS_UNKNOWN = 4 };
 /* The triangle's surface, and the rays of the current tile. */
 typedef struct masked_surface {
 #if LMB_TREES
-    lmb_masked_job job; /* if `batches`; of others `behind` */
+    lmb_masked_job job; /* whole if `batches`; otherwise only `behind` is set */
     int batches;        /* the kernel fills whole tiles */
     int misses;         /* blocks that may still be neither hole nor solid before no more are tested */
 #endif

@@ -82,6 +82,14 @@ echo "x.png $long.obj 8,12" >list.txt
 status 1 mix $seen --placements list.txt
 said "$long.obj: cannot be opened: No such file or directory"
 
+# play prints its notes before its first picture.
+"$TOOL" play tent.obj --size 8x6 --quality draft --frames 3 -o noted%02d.ppm --time-limit 100 >out.txt 2>noted.txt
+check "play ends" test $? -eq 0
+"$TOOL" play tent.obj --size 320x240 --quality draft --frames 100000 --time-limit 2 >out.txt 2>cut.txt
+check "play ends at its limit" test $? -eq 1
+check "play prints its notes before the end" grep -qxFf noted.txt cut.txt
+check "play has notes" test -s noted.txt
+
 # --- line ends of any system ---
 
 printf 'mtllib lines.mtl\nv 0 0 0 # a corner\nv 1 0 \\\n0\nv 0 1 0\nusemtl a b\nf 1 2 \\\n3\n# end' >lines.obj
@@ -99,6 +107,18 @@ done
 printf 'v 0 0 0\rv 1 0 0\rv x 1 0\rf 1 2 3\r' >cr.obj
 status 1 info cr.obj
 said 'cr.obj: line 3: "x" is not a number'
+printf '# by\rf 7 8 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >comment.obj
+status 0 info comment.obj # with LF in the file, CR ends no line
+
+# --- each verb tells what it left out of a model ---
+
+printf 'newmtl a\nmap_Kd cut.png\n' >cut.mtl
+head -c 40 tent.png >cut.png 2>/dev/null || printf '\211PNG' >cut.png
+printf 'mtllib cut.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl a\nf 1/1 2/2 3/3\n' >cut.obj
+for verb in "render cut.obj $few -o cut.png.pfm" "bake cut.obj --elements 64 -o cut.lmt" "relief bake cut.obj --size 16 -o cut.lmr" "pack cut.obj -o cut.lmp"; do
+    status 0 $verb
+    check "$verb tells that a texture was left out" grep -q "textures left out" err.txt
+done
 
 # --- standard input under each of its names ---
 

@@ -182,6 +182,8 @@ for verb in "render in/away.gltf $few -o x.png" "info in/away.gltf" "pack in/awa
     status 1 $verb --only-here
     said "a link that leads out of its folder (--only-here)"
 done
+status 1 info /proc/self/cwd/in/away.gltf --only-here # by the name of a folder that the system links
+said "a link that leads out of its folder (--only-here)"
 status 0 info in/away.gltf
 cp tent.obj out/tent.obj
 printf 'ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n' >triangle.ply

@@ -99,7 +99,7 @@ void plan_print_table(const lmb_plan *p, const render_job *j, const budget_choic
     }
     printf("\n\n");
     print_rows(p);
-    printf("%-14s %9s %6s %10.1f  state, and scratch of further threads\n", "the rest", "", "",
+    printf("%-14s %9s %6s %10.1f  state, and scratch of further threads; not in --budget bytes\n", "the rest", "", "",
            fmax((double)j->bytes + (double)j->many_lights.bytes - (double)p->bytes, 0.0) / 1024.0);
     printf("%-14s %9s %6s %10.1f\n\n", "all", short_count(work, p->work), "",
            fmax((double)j->bytes + (double)j->many_lights.bytes, (double)p->bytes) / 1024.0);

@@ -144,7 +144,7 @@ int program_main(const program *p, int argc, char **argv)
     options_limit_by(limit);
     report_hold_notes();
     const int status = start(p, argc, argv);
-    report_tell_notes();
+    report_print_notes();
     limit_end();
     file_keep_end();
     return status != 0 || report_flush(&r) ? status : report_end(&r, verb_name, 1);

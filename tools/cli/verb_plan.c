@@ -23,9 +23,9 @@ static int plan(render_job *j, report *r)
     if (status != LMB_OK) {
         return report_fail(r, "%s: cannot be planned: %s", j->o.scene, lmb_status_name(status));
     }
-    report_note(!j->o.view.is_verbose, "planned in %.1f ms, reading the scene with it",
+    report_note(!j->o.view.is_verbose, "planned in %.1f ms, with the reading of the scene",
                 (host_seconds() - start) * 1e3);
-    report_tell_notes();
+    report_print_notes();
     if (j->o.json) {
         plan_print_json(&p, j, &choice);
     } else {

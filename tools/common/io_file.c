@@ -246,12 +246,24 @@ int file_is_below(const char *path, const char *folder, size_t folder_size, repo
            report_fail(r, "%s: no file in or below its folder (--only-here)", path);
 }
 
-/* Is it a link out of its folder? Names of open files and devices are links, too, but no stranger's file may name
- * them. */
+/* Names of the program's open files; the system makes them links. */
+static int is_open_file(const char *path)
+{
+    static const char *const folders[] = {"/dev/fd/", "/proc/self/fd/"};
+    for (size_t i = 0; i < sizeof folders / sizeof *folders; ++i) {
+        const size_t n = strlen(folders[i]),
+                     digits = strncmp(path, folders[i], n) != 0 ? 0 : strspn(path + n, "0123456789");
+        if (digits > 0 && path[n + digits] == '\0') {
+            return 1;
+        }
+    }
+    return strcmp(path, "/dev/stdin") == 0;
+}
+
+/* Is it a link out of its folder? */
 static int leads_out(const char *path)
 {
-    return is_only_here && strncmp(path, "/dev/", 5) != 0 && strncmp(path, "/proc/", 6) != 0 &&
-           !is_really_below(path, path, (size_t)(name_in(path) - path));
+    return is_only_here && !is_open_file(path) && !is_really_below(path, path, (size_t)(name_in(path) - path));
 }
 
 /* --- reading --- */

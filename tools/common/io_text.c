@@ -13,6 +13,7 @@ cursor text_open(const uint8_t *data, size_t size, const char *path)
     c.end = size ? c.at + size : c.at;
     c.path = path;
     c.line = 1;
+    c.has_lf = size > 0 && memchr(data, '\n', size) != NULL;
     if (size >= 3 && memcmp(data, "\xEF\xBB\xBF", 3) == 0)
         c.at += 3;
     return c;
@@ -20,11 +21,8 @@ cursor text_open(const uint8_t *data, size_t size, const char *path)
 
 static int is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
 
-/* Returns 1 at the last byte of a line break: LF, or CR without LF, as Mac OS 9 ended lines. */
-static int ends_line(const char *at, const char *end)
-{
-    return *at == '\n' || (*at == '\r' && (at + 1 == end || at[1] != '\n'));
-}
+/* Returns 1 at the last byte of a line break. */
+static int ends_line(const cursor *c, const char *at) { return *at == (c->has_lf ? '\n' : '\r'); }
 
 /* Returns the bytes of a backslash and the line break after it; 0 if there is no continuation here. */
 static size_t continuation(const cursor *c)
@@ -32,7 +30,7 @@ static size_t continuation(const cursor *c)
     const size_t left = (size_t)(c->end - c->at);
     if (*c->at != '\\' || left < 2)
         return 0;
-    if (ends_line(c->at + 1, c->end))
+    if (ends_line(c, c->at + 1))
         return 2;
     return left >= 3 && c->at[1] == '\r' && c->at[2] == '\n' ? 3 : 0;
 }
@@ -41,14 +39,14 @@ static void skip_blanks(cursor *c)
 {
     while (c->at < c->end) {
         const size_t n = continuation(c);
-        if (!n && (!is_blank(*c->at) || ends_line(c->at, c->end)))
+        if (!n && (!is_blank(*c->at) || ends_line(c, c->at)))
             return;
         c->line += n != 0;
         c->at += n ? n : 1;
     }
 }
 
-static int at_line_end(const cursor *c) { return c->at == c->end || *c->at == '#' || ends_line(c->at, c->end); }
+static int at_line_end(const cursor *c) { return c->at == c->end || *c->at == '#' || ends_line(c, c->at); }
 
 int text_token(slice *out, cursor *c)
 {
@@ -64,10 +62,10 @@ int text_token(slice *out, cursor *c)
 
 void text_rest(slice *out, cursor *c)
 {
-    while (c->at < c->end && is_blank(*c->at) && !ends_line(c->at, c->end))
+    while (c->at < c->end && is_blank(*c->at) && !ends_line(c, c->at))
         ++c->at;
     out->at = c->at;
-    while (c->at < c->end && !ends_line(c->at, c->end) && !continuation(c))
+    while (c->at < c->end && !ends_line(c, c->at) && !continuation(c))
         ++c->at;
     out->size = (size_t)(c->at - out->at);
     while (out->size && is_blank(out->at[out->size - 1]))
@@ -76,7 +74,7 @@ void text_rest(slice *out, cursor *c)
 
 int text_next_line(cursor *c)
 {
-    while (c->at < c->end && !ends_line(c->at, c->end)) {
+    while (c->at < c->end && !ends_line(c, c->at)) {
         const size_t n = continuation(c);
         c->line += n != 0;
         c->at += n ? n : 1;

@@ -18,6 +18,7 @@ typedef struct cursor {
     const char *at, *end;
     const char *path; /* for messages */
     uint32_t line;    /* from 1 */
+    int has_lf;       /* otherwise CR ends a line, as in Mac OS 9 */
 } cursor;
 
 /* Tokens. A comment ends a line; so does the line break, unless there is a backslash before it. */

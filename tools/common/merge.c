@@ -39,7 +39,7 @@ int merge_slices(const option_table *t, int (*join)(const char *out, const slice
         return options_answer(asked, t, &r);
     }
     progress_begin(o.is_quiet, "merge");
-    report_tell_notes(); /* why a slice is left out explains the error */
+    report_print_notes(); /* why a slice is left out explains the error */
     int ok = keep_all(&o, &r) && slice_gather(&set, o.slice, o.slices, o.is_quiet, &r);
     if (ok) {
         report_note(!o.is_verbose, "%s: %d slices", set.about, (int)set.count);

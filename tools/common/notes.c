@@ -21,7 +21,9 @@ void notes_drop(void)
     memset(&waiting, 0, sizeof waiting);
 }
 
-void notes_tell(void)
+int notes_wait(void) { return waiting.is_on; }
+
+void notes_print(void)
 {
     if (waiting.size > 0) {
         fwrite(waiting.text, 1, waiting.size, stderr);

@@ -73,9 +73,17 @@ static void show(const char *name, double share, double begun, double now)
     fprintf(stderr, "\r%-78.78s", line);
 }
 
+static void print_notes(void)
+{
+    if (notes_wait()) {
+        progress_wipe();
+        notes_print();
+    }
+}
+
 void progress_tell(const char *step, double share)
 {
-    notes_tell();
+    print_notes();
     if (!watch.is_on) {
         return;
     }
@@ -102,6 +110,7 @@ void progress_again(void)
 
 void progress_whole(const char *part, double share)
 {
+    print_notes();
     if (watch.is_on) {
         watch.is_whole = 1;
         watch.share = share;

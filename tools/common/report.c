@@ -85,7 +85,7 @@ void report_print(FILE *out, const char *format, ...)
 void report_say(const char *format, ...)
 {
     va_list args;
-    report_tell_notes();
+    report_print_notes();
     va_start(args, format);
     print(report_words(), format, args);
     va_end(args);
@@ -103,10 +103,10 @@ int report_flush(report *r)
 
 void report_hold_notes(void) { notes_hold(); }
 
-void report_tell_notes(void)
+void report_print_notes(void)
 {
     progress_wipe();
-    notes_tell();
+    notes_print();
 }
 
 void report_note(int is_quiet, const char *format, ...)

@@ -44,11 +44,11 @@ int report_is_usage(const report *r);
 int report_fail_usage(report *r, const char *format, ...) REPORT_PRINTF(2, 3);
 
 /* report_note: prints a line on stderr after the program's name, unless is_quiet. report_hold_notes: from now on notes
- * wait until report_tell_notes, so that an error is the only line: report_end drops them. report_say, and the first
- * step of progress, tell them. One thread at a time. */
+ * wait until report_print_notes, so that an error is the only line: report_end drops them. report_say and the first
+ * step of progress print them. One thread at a time. */
 void report_note(int is_quiet, const char *format, ...) REPORT_PRINTF(2, 3);
 void report_hold_notes(void);
-void report_tell_notes(void);
+void report_print_notes(void);
 
 /* report_end: prints the message after the program and VERB, and returns the exit status: `status`, or 2 after
  * report_fail_usage. */

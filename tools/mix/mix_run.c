@@ -51,11 +51,7 @@ static void tell_size(const mix_job *j)
 
 void mix_tell(const mix_job *j)
 {
-    for (uint32_t i = 0; i < j->notes.count; ++i) { /* notes about options that only `render` has do not apply */
-        report_note(j->o.is_quiet || strstr(j->notes.line[i], "--glossy") != NULL ||
-                        strstr(j->notes.line[i], "fixed groups") != NULL,
-                    "note: %s", j->notes.line[i]);
-    }
+    model_tell(&j->notes, j->o.is_quiet);
     if (j->o.object == NULL || j->o.at == MIX_AT_WORLD || j->o.show == MIX_PLANES) { /* it was not placed */
         return;
     }

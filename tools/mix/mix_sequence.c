@@ -256,7 +256,7 @@ int mix_frames(const mix_options *o, report *r)
         return 0;
     }
     tell_list(o, &s.list);
-    report_tell_notes();
+    report_print_notes();
     s.aside.run = write_or_read;
     s.aside.user = &s;
     s.is_written = 1;

@@ -296,6 +296,15 @@ int model_read(model *out, const char *path, const char *scene, const uint8_t *d
     return model_read_as(out, path, &choice, data, size, notes, r);
 }
 
+void model_tell(const model_notes *notes, int is_quiet)
+{
+    for (uint32_t i = 0; i < notes->count; ++i) {
+        const char *line = notes->line[i];
+        report_note(is_quiet || strstr(line, "--glossy") != NULL || strstr(line, "fixed groups") != NULL, "note: %s",
+                    line);
+    }
+}
+
 int model_load(model *out, const char *path, const char *scene, model_notes *notes, report *r)
 {
     const model_choice choice = {scene, MODEL_COLOURS_SRGB, 0};

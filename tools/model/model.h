@@ -109,6 +109,9 @@ typedef struct model_choice {
     int32_t keeps_source;   /* 1: fill out->source if the file is glTF */
 } model_choice;
 
+/* model_tell: prints the notes, but for those about options that only `render` has. */
+void model_tell(const model_notes *notes, int is_quiet);
+
 /* model_load: loads .gltf, .glb, .obj, .ply or .lmp, by content and extension. `scene` is the name or number of the
  * scene to load; NULL: the default scene of the file. Returns 1, or 0 with `r` set and *out empty. */
 int model_load(model *out, const char *path, const char *scene, model_notes *notes, report *r);

@@ -116,6 +116,7 @@ static int check_frame(play *p, int32_t k, report *r)
 static int draw_all(play *p, report *r)
 {
     int ok = 1;
+    report_print_notes();
     const slice own = p->o.render.slice;
     const int32_t frames = slice_items(own, p->o.frames);
     for (int32_t i = 0; ok && i < frames; ++i) {

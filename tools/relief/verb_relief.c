@@ -160,11 +160,15 @@ static int open_relief(work *w, const char *path, report *r)
                                                                      : "not a whole .lmr file of version 1");
 }
 
-static int load(model *out, const char *path, const model_choice *choice, report *r)
+static int load(model *out, const char *path, const relief_options *o, report *r)
 {
     static model_notes notes;
     memset(&notes, 0, sizeof notes);
-    return model_load_as(out, path, choice, &notes, r);
+    if (!model_load_as(out, path, &o->choice, &notes, r)) {
+        return 0;
+    }
+    model_tell(&notes, o->view.is_quiet);
+    return 1;
 }
 
 static int choose_view(lmb_view *out, const work *w, relief_options *o, report *r)
@@ -233,8 +237,8 @@ static int render(work *w, relief_options *o, report *r)
     memset(&shot, 0, sizeof shot);
     w->light = o->has_light ? o->light : sun;
     if (!options_files(o, &table, r) || !open_relief(w, o->file, r) ||
-        (o->with != NULL && !load(&w->with, o->with, &o->choice, r)) ||
-        (o->compare != NULL && !load(&w->complex, o->compare, &o->choice, r)) || !options_files(o, &table, r) ||
+        (o->with != NULL && !load(&w->with, o->with, o, r)) ||
+        (o->compare != NULL && !load(&w->complex, o->compare, o, r)) || !options_files(o, &table, r) ||
         !relief_path_open(&w->path, o, &w->light, r) || !choose_view(&shot.view, w, o, r)) {
         return 0;
     }

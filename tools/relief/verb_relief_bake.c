@@ -113,6 +113,7 @@ typedef struct work {
     int32_t views;
     relief_bake bake;
     file_bytes file;
+    model_notes notes[2]; /* of the complex and the simple model */
 } work;
 
 static void work_free(work *w)
@@ -126,11 +127,9 @@ static void work_free(work *w)
     free(w);
 }
 
-static int load(model *out, triangle_mesh *mesh, const char *path, const model_choice *choice, report *r)
+static int load(model *out, triangle_mesh *mesh, const char *path, const options *o, model_notes *notes, report *r)
 {
-    static model_notes notes;
-    memset(&notes, 0, sizeof notes);
-    if (!model_load_as(out, path, choice, &notes, r)) {
+    if (!model_load_as(out, path, &o->choice, notes, r)) {
         return 0;
     }
     return relief_flatten(mesh, &out->scene, r);
@@ -149,7 +148,7 @@ static int load_simple(work *w, const options *o, report *r)
     simplify_facts facts;
     counted_heap held = {0, 0};
     double outside = 0.0;
-    if (!load(&w->loaded_simple, &own, o->simple, &o->choice, r)) {
+    if (!load(&w->loaded_simple, &own, o->simple, o, &w->notes[1], r)) {
         return 0;
     }
     if (o->as_is) {
@@ -327,7 +326,7 @@ static int tell_worth(const work *w, report *r)
 static int bake(work *w, const options *o, report *r)
 {
     relief_coverage coverage;
-    if (!options_files(o, &table, r) || !load(&w->loaded, &w->mesh, o->model, &o->choice, r) ||
+    if (!options_files(o, &table, r) || !load(&w->loaded, &w->mesh, o->model, o, &w->notes[0], r) ||
         !options_files(o, &table, r) || !choose_views(w, o, r) || !make_simple(w, o, r)) {
         return 0;
     }
@@ -336,6 +335,9 @@ static int bake(work *w, const options *o, report *r)
         !relief_cover(&coverage, &w->bake, &w->mesh, r) || !relief_encode(&w->file, &w->bake, &w->simple, r) ||
         !file_write(o->out, w->file.data, w->file.size, r)) {
         return 0;
+    }
+    for (int i = 0; i < 2; ++i) {
+        model_tell(&w->notes[i], o->is_quiet);
     }
     if (!o->is_quiet) {
         tell(w, o, &coverage);

@@ -25,10 +25,6 @@ int figures_load_model(model *out, const char *name, const relight_options *o, r
     } else if (!model_load_as(out, name, &o->choice, &notes, r)) {
         return 0;
     }
-    for (uint32_t i = 0; i < notes.count; ++i) { /* notes about options that only `render` has do not apply */
-        report_note(o->view.is_quiet || strstr(notes.line[i], "--glossy") != NULL ||
-                        strstr(notes.line[i], "fixed groups") != NULL,
-                    "note: %s", notes.line[i]);
-    }
+    model_tell(&notes, o->view.is_quiet);
     return 1;
 }
