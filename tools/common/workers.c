@@ -100,10 +100,14 @@ static lmb_status share(const workers *c, const lmb_render *r, int parts, pool_j
     return sum_up(&w, r->frame.stats);
 }
 
+/* Samples are costly where they are dense, so each thread takes many small parts of them. */
+enum { SAMPLE_PARTS = 16 };
+
 static lmb_status do_parts(const workers *c, lmb_render *r)
 {
-    const lmb_status status = share(c, r, c->threads, draw_part);
-    return status != LMB_OK ? status : lmb_render_parts_done(r, c->threads);
+    const int parts = r->stage == LMB_STAGE_SAMPLES ? SAMPLE_PARTS * c->threads : c->threads;
+    const lmb_status status = share(c, r, parts, draw_part);
+    return status != LMB_OK ? status : lmb_render_parts_done(r, parts);
 }
 
 static lmb_status do_step(const workers *c, lmb_render *r)
