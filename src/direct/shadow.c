@@ -277,8 +277,8 @@ static void ask_shadow_pairs(shadow_some *inout, lmb_shadow_pairs *pairs, const 
 }
 
 /* Adds a pixel and the triangle of an id. Returns 0 if the triangle has holes, or is none. */
-static int add_shadow_pair(lmb_shadow_pairs *pairs, uint32_t ids[LMB_SHADOW_PAIRS], const lmb_scene *scene,
-                           int pixel, uint32_t id)
+NOINLINE int add_shadow_pair(lmb_shadow_pairs *pairs, uint32_t ids[LMB_SHADOW_PAIRS], const lmb_scene *scene,
+                             int pixel, uint32_t id)
 {
     const int to = pairs->count;
     lmb_triangle t;
