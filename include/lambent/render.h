@@ -334,8 +334,8 @@ int32_t lmb_render_has_parts(const lmb_render *r);
  * lmb_render_parts_done. The bytes are those of lmb_render_step.
  *
  *   scratch  one for each thread.
- *   parts    1 .. 65,535. Each share of a map sets up all triangles, so one share a thread is best. For samples
- *            (LMB_STAGE_SAMPLES) 16 a thread are best, because samples are dense in some rows.
+ *   parts    1 .. 65,535. Use one share for each thread, because each share of a map sets up all triangles. For
+ *            LMB_STAGE_SAMPLES use 16 for each thread, because some rows have many more samples than others.
  *   stats    added to; one for each thread, or NULL. lmb_render_parts_done writes frame.stats.
  * Returns LMB_OK; LMB_ERR_ARG (null, part outside, a stage without parts); or an error of the stage. */
 lmb_status lmb_render_part(const lmb_render *r, lmb_band_scratch *scratch, int32_t part, int32_t parts,

@@ -123,7 +123,7 @@ void host_print_now(const char *text, size_t size)
     struct pollfd err;
     err.fd = STDERR_FILENO;
     err.events = POLLOUT;
-    /* Some systems cannot poll terminals and say POLLNVAL. */
+    /* Some systems cannot poll terminals and return POLLNVAL. */
     if (poll(&err, 1, 0) == 1 && (err.revents & (POLLERR | POLLHUP)) == 0 && (err.revents & (POLLOUT | POLLNVAL)) != 0) {
         (void)!write(STDERR_FILENO, text, size);
     }

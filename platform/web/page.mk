@@ -52,7 +52,7 @@ $(PAGE_WORK)/flags: FORCE
 	@mkdir -p $(@D)
 	@printf '%s\n' "$$PAGE_LINE" | cmp -s - $@ || printf '%s\n' "$$PAGE_LINE" > $@
 
-# At -O0 the library is one unit: starting clang 130 times takes longer than compiling.
+# At -O0 the library is compiled as one unit, because starting clang 130 times takes longer than compiling.
 PAGE_UNIT := $(if $(filter -O0,$(PAGE_OPT)),$(filter src/%,$(PAGE_SRC)))
 $(PAGE_WORK)/main/src.o: $(PAGE_UNIT) $(PAGE_WORK)/flags platform/web/page.mk
 	@mkdir -p $(@D)

@@ -490,9 +490,9 @@ static void KERNEL(gather)(lmb_irradiance *inout, lmb_gather_scratch *scratch, c
 /* --- near groups, disc by disc ------------------------------------------------------------------------------------ */
 
 #if LMB_TREES
-/* The place of pixel k. In an inner edge, less than a seventh of a disc above the other wall's plane, it is lit from
- * that height, because discs end before the edge or behind it. A pixel in the plane, within rounding, is on the eye's
- * side of it; without occlusion in front. */
+/* The place of pixel k. If the pixel is in an inner edge, closer than FLAT_PART to the other wall's plane, the place
+ * moves to that height, because discs end before the edge or behind it. A pixel in the plane, within rounding, counts
+ * as on the eye's side of the plane. Without occlusion it counts as in front. */
 static inline lmb_vec3 gather_place(const lmb_tile *tile, int k, const lmb_point *disc, const lmb_march_job *m)
 {
     const lmb_vec3 at = tile_vec(tile->position, k), face = tile_vec(tile->face, k), to = sub3(disc->position, at);

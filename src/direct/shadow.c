@@ -254,7 +254,7 @@ static int is_lit_at(lmb_shadow_query *query, const lmb_tile *tile, int k)
     return lmb_is_lit(query, &r);
 }
 
-/* Answers for some pixels of a tile, a mask each. */
+/* Masks of pixels of a tile. */
 typedef struct shadow_some {
     uint32_t own;     /* a texel shows the pixel's own triangle */
     uint32_t shadows, over;
@@ -276,7 +276,7 @@ static void ask_shadow_pairs(shadow_some *inout, lmb_shadow_pairs *pairs, const 
     pairs->count = 0;
 }
 
-/* Adds a pixel and the triangle of an id. Returns 0 if the triangle has holes, or is none. */
+/* Adds a pair of a pixel and a triangle. Returns 0 if the triangle has holes or does not exist. */
 NOINLINE int add_shadow_pair(lmb_shadow_pairs *pairs, uint32_t ids[LMB_SHADOW_PAIRS], const lmb_scene *scene,
                              int pixel, uint32_t id)
 {
@@ -306,7 +306,7 @@ NOINLINE int add_shadow_pair(lmb_shadow_pairs *pairs, uint32_t ids[LMB_SHADOW_PA
     return 1;
 }
 
-/* Answers for the pixels `some` from `first` on. */
+/* Tests the pixels `some`. first: the pixel of bit 0. */
 static shadow_some ask_some(const lmb_shadow_query *query, const lmb_kernels *kernels, const lmb_tile *tile, int first,
                             uint32_t some, uint32_t (*seen)[LMB_SHADOW_PIXELS], const lmb_view *map_view)
 {

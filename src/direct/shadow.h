@@ -28,8 +28,8 @@ typedef struct lmb_shadow_query {
 void lmb_shadow_ask(lmb_shadow_query *out, const lmb_shadow_map *map, const lmb_light *light, const lmb_scene *scene,
                     const lmb_view *view);
 #if LMB_SHADOW_LANES
-/* Returns the requested pixels of a tile that are lit, by the answers of lmb_is_lit. doubtful: gets those of them with
- * LMB_LIT_IN_DOUBT. */
+/* Returns the requested pixels of a tile that lmb_is_lit would report as lit. *doubtful: those in
+ * doubt (LMB_LIT_IN_DOUBT). */
 uint64_t lmb_shadow_lit(uint64_t *doubtful, lmb_shadow_query *query, const lmb_kernels *kernels, const lmb_tile *tile,
                         uint64_t asked);
 #endif

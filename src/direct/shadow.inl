@@ -1,6 +1,6 @@
-/* shadow.inl: pixels that a shadow map shows on their own triangle, and the sum of lit pixels. Layer 4. */
+/* shadow.inl: tests pixels of a tile against a shadow map by lanes, and adds the light of lit pixels. Layer 4. */
 
-/* Lanes of a cube map's face: that of the largest component of d, as choose_shadow_face. */
+/* Masks the lanes whose direction d belongs to a face of a cube map. Chooses faces as choose_shadow_face does. */
 LANE_INLINE lane_mask shadow_is_in_face(lane3 d, int32_t face)
 {
     const lane x = lane_abs(d.x), y = lane_abs(d.y), z = lane_abs(d.z), zero = lane_splat(0.0f);
@@ -23,7 +23,7 @@ LANE_INLINE lanei shadow_texel(const lmb_shadow_job *job, lanei x, lanei y)
                       : lanei_gather_i32((const int32_t *)job->id, at);
 }
 
-/* Texel left of or above a place, and the next one, in the map. */
+/* The texel to the left of a place (or above it), and the next texel; both inside the map. */
 LANE_INLINE void shadow_texels(lanei out[2], lane at, int32_t last)
 {
     const lane from = lane_sub(at, lane_splat(0.5f)); /* above -1 */
@@ -33,9 +33,9 @@ LANE_INLINE void shadow_texels(lanei out[2], lane at, int32_t last)
     out[1] = lanei_min(lanei_add(first, one), lanei_splat(last));
 }
 
-/* Of the requested pixels from `first` on in the job's face, returns those that are lit for certain: all four texels
- * around each show the pixel's own triangle, or it lies outside the map. *in: the pixels in the face. seen: the ids of
- * the four texels of the others. The same formulas as find_place and four_ids. */
+/* Returns the requested pixels in the job's face that are certainly lit. A pixel is certainly lit if it lies outside
+ * the map, or if all four texels around it show the pixel's own triangle. *in: the pixels in the face. seen: the ids of
+ * the four texels around each pixel. Uses the formulas of find_place and four_ids. */
 static uint32_t KERNEL(shadow_own)(uint32_t *in, uint32_t (*seen)[LMB_SHADOW_PIXELS], const lmb_tile *tile, int first,
                                    uint32_t asked, const lmb_shadow_job *job)
 {
@@ -81,7 +81,7 @@ static uint32_t KERNEL(shadow_own)(uint32_t *in, uint32_t (*seen)[LMB_SHADOW_PIX
     return out;
 }
 
-/* Answers of ask_from for pairs of a pixel and a triangle, a mask each. */
+/* Tests pairs of a pixel and a triangle as ask_from does. Sets masks of pairs. */
 static void KERNEL(shadow_ask)(lmb_shadow_answers *out, const lmb_shadow_pairs *pairs, const lmb_tile *tile)
 {
     const lane zero = lane_splat(0.0f);

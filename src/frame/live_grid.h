@@ -47,8 +47,8 @@ live_grid lmb_live_grid_of(const lmb_lattice *l, int32_t strata);
 lmb_live_sample lmb_live_grid_surface(const lmb_tile *tile, int k);
 
 /* Stores which samples of a tile have a surface, and the surface of those of 8 px. If you pass `lobes`, the tile is
- * gathered whole. lmb_live_grid_put_even: for a tile that is not at the frame's right or lower edge, and whose pixels
- * all show the triangle of the first one and have that pixel's normal. */
+ * gathered whole. lmb_live_grid_put_even: for a tile that is not at the right or lower edge of the frame, if one
+ * triangle with one normal fills the tile. */
 void lmb_live_grid_put(const live_grid *g, const lmb_tile *tile, int lobes);
 void lmb_live_grid_put_even(const live_grid *g, const lmb_live_sample *first, int32_t column, int32_t row);
 

@@ -112,7 +112,7 @@ static uint32_t id_that_fills(const lmb_target *eye, int32_t column, int32_t row
     return differ == 0 ? id : 0;
 }
 
-/* Selects another triangle. The surface is that of the current tile. */
+/* Selects another triangle and stores the surface of the current tile. */
 static void fill_by(filling *out, const lmb_render *r, const lmb_tile *tile, uint32_t id)
 {
     const lmb_frame *f = &r->frame;
@@ -138,7 +138,7 @@ static void fill_at(filling *inout, const lmb_view *view, int32_t x, int32_t y)
     inout->surface.position = add3(add3(rays.origin, mul3(rays.direction, w)), rays.eye);
 }
 
-/* Stores the surfaces of a tile. Most tiles of a room are filled by the triangle that fills the tile before. */
+/* Stores the surfaces of a tile. In a room, the triangle that fills a tile usually fills the next tile too. */
 static lmb_status take_own_surface(filling *last, const lmb_render *r, lmb_band_scratch *s, const live_grid *g,
                                int32_t column, int32_t row)
 {

@@ -134,7 +134,7 @@ static uint64_t live_memory(const lmb_frame *f)
     return bytes;
 }
 
-/* Memory of the first points, whatever sums them up. */
+/* Memory of the first points, for any solver. */
 static uint64_t points_memory(const lmb_frame *f)
 {
     uint64_t bytes = 0;

@@ -266,7 +266,7 @@ typedef struct lmb_direct_job {
     int32_t kind;
 } lmb_direct_job;
 
-/* 1: tiles are tested against shadow maps by lanes. One lane is slower than a loop over pixels. */
+/* 1: kernels test tiles against shadow maps. With one lane a loop over pixels is faster. */
 #define LMB_SHADOW_LANES (LMB_FACETS && LMB_PLAIN_LANES > 1)
 
 /* One face of a shadow map. */
@@ -291,8 +291,9 @@ typedef struct lmb_shadow_pairs {
     lmb_vec3 light, eye;     /* light: its position, or the direction to it */
 } lmb_shadow_pairs;
 
-/* A bit a pair: the triangle's plane contains the pixel's place; the triangle shadows the pixel, if it is opaque; it
- * lies over the pixel in the map, but does not shadow it. `shadows` and `over` are wrong if `through` is set. */
+/* One bit for each pair. through: the triangle's plane contains the pixel's place; the other bits are then wrong.
+ * shadows: an opaque triangle shadows the pixel. over: the triangle covers the pixel in the map, but does not
+ * shadow the pixel. */
 typedef struct lmb_shadow_answers {
     uint32_t through, shadows, over;
 } lmb_shadow_answers;
@@ -543,8 +544,8 @@ struct lmb_kernels {
     /* Unshadowed irradiance of each pixel, W/m2. */
     void (*direct)(lmb_irradiance *out, const lmb_tile *tile, const lmb_direct_job *job);
 #if LMB_SHADOW_LANES
-    /* Of LMB_SHADOW_PIXELS pixels from `first` on, returns those that a face of the map does not shadow for certain.
-     * *in: those in the face. seen: ids of the four texels around the others. */
+    /* Tests LMB_SHADOW_PIXELS pixels from `first` on. Returns the pixels that are certainly lit. *in: the pixels in
+     * the face. seen: ids of the four texels around each pixel. */
     uint32_t (*shadow_own)(uint32_t *in, uint32_t (*seen)[LMB_SHADOW_PIXELS], const lmb_tile *tile, int first,
                            uint32_t asked, const lmb_shadow_job *job);
     void (*shadow_ask)(lmb_shadow_answers *out, const lmb_shadow_pairs *pairs, const lmb_tile *tile);

@@ -274,8 +274,8 @@ static inline void lane_put_u16(uint16_t *p, int32_t step, uint32_t id, lane_mas
 {
     avx512_put_rows_u16(p, step, _mm256_mask_blend_epi16(m, avx512_rows_u16(p, step), _mm256_set1_epi16((short)id)));
 }
-/* Tiled ids are not read back, so nothing waits for a masked store. Otherwise one blend of all 16: clang 14 splits off
- * the upper half of a mask through memory. */
+/* Ids of a tile are not read back while the tile is drawn, so a masked store is faster. Other stores blend all 16
+ * lanes, because clang 14 splits the upper half of a mask through memory. */
 static inline void lane_put_u32(uint32_t *p, int32_t step, uint32_t id, lane_mask m)
 {
     if (step == 8) {

@@ -134,9 +134,9 @@ static void draw_clusters(lmb_fill_context *c, const lmb_draw_instance *d, lmb_b
 #if LMB_TREES
 enum { MIN_AHEAD = 64, EACH_AHEAD = 29 };
 
-/* Draws every 29th large triangle with holes ahead, a little behind its place. Most pixels behind these triangles then
- * need no test of alpha, in any order of the triangles. The draw itself covers what was drawn ahead, so both must drop
- * the same triangles: kernels->setup decides. */
+/* Draws the depths of every 29th large triangle with holes first, slightly farther away. Most pixels behind these
+ * triangles then fail the depth test, in any order of the triangles, and need no test of alpha. The main draw must
+ * cover the same triangles, because these depths may not remain. Both therefore drop triangles by kernels->setup. */
 static void draw_ahead(lmb_fill_context *c, const lmb_draw_instance *d, lmb_batch *batch, uint32_t first,
                        uint32_t past)
 {

@@ -20,8 +20,8 @@
 #define MIN_PLANE_SLOPE     0.05f /* least of a tile's slopes, of the largest, to test all pixels at once */
 #define BARYCENTRIC_MARGIN  (1.0f / 64.0f) /* part of the barycentrics of a tile or block, for rounding */
 
-/* Depths of triangles that are drawn ahead: less than all others of the same triangle. In 16 bits two codes less. Drawn
- * depths are normal numbers (over 1e-36 in perspective), so the factor lowers them. */
+/* Depths that draw_ahead stores are less than those of the main draw, by a factor or by codes of 16 bits. Depths are
+ * normal numbers (over 1e-36 in perspective), so the factor always lowers them. */
 #define FACTOR_BEHIND (1.0f - 1.0f / 4194304.0f)
 #define CODES_BEHIND  2.0f
 #define MIN_TILES_AHEAD 8 /* triangles of fewer tiles are not drawn ahead */
@@ -33,12 +33,12 @@
 enum { BLOCK_COLUMNS = 8, BLOCK_ROWS = 4, BLOCK_HALVINGS = 4, MIN_BLOCK_TILES = 8 };
 #define BLOCK_TEXELS 1024u /* max texels read for one block */
 
-/* A miss is a block that is neither hole nor solid. After a triangle's misses, its blocks are no longer halved. */
+/* A miss is a block that is neither hole nor solid. If a triangle has used up its misses, no block is halved. */
 enum {
     MIN_MISSES = 2,
-    MISS_TILES = 64,  /* one more miss for every so many tiles of the triangle */
-    EARNED_TILES = 4, /* one more for every so many tiles in blocks that were hole or solid */
-    WHOLE_MISSES = 3  /* after so many more misses, no block is tested */
+    MISS_TILES = 64,  /* tiles of the triangle that allow one more miss */
+    EARNED_TILES = 4, /* tiles in hole or solid blocks that allow one more miss */
+    WHOLE_MISSES = 3  /* further misses until blocks are not tested either */
 };
 
 /* Pieces of the current tile that need no test of single pixels. Before the first pixel passes the depth test the tile
@@ -116,8 +116,8 @@ static float corner_point(float b[2], const lmb_plane *p, const lmb_rays *rays, 
     return slope;
 }
 
-/* Tests tiles from the first pixel of the rays on at once, if all of their rays meet the plane on the same side and far
- * from the horizon. Then the barycentrics of all pixels lie between those of the corners. */
+/* Tests several tiles at once, from the first pixel of the rays on. If all rays meet the plane on the same side and far
+ * from the horizon, the barycentrics of all pixels lie between those of the corners. */
 NOINLINE int tiles_part(const masked_surface *s, const lmb_fill_context *c, int32_t columns, int32_t rows,
                         uint32_t texels)
 {
@@ -392,8 +392,8 @@ static int set_tile(lmb_fill_tile *out, lmb_fill_job *job, masked_surface *surfa
 }
 
 #if LMB_TREES
-/* Parts of a triangle's tiles that are still to be filled. A function returns them one by one, and its caller fills
- * them, because both together would take more stack. */
+/* Parts of a triangle's tiles that are still to be filled. parts_next returns one part, and the caller fills it,
+ * because one function for both would need more stack. */
 typedef struct tile_parts {
     int16_t left[BLOCK_HALVINGS + 1][4]; /* x0, y0, x1, y1 */
     int16_t count;
@@ -455,8 +455,7 @@ static void parts_halve(tile_parts *inout)
     first[axis] = middle;
 }
 
-/* Takes the next part that is all solid or cannot be halved; parts that are all hole are left out. Returns 0 if there
- * is none. */
+/* Returns the next part that is solid or cannot be halved, and skips parts that are holes. Returns 0 at the end. */
 NOINLINE int parts_next(tile_range *out, tile_parts *inout, const tile_range *all, masked_surface *surface,
                         const lmb_fill_context *c, const lmb_setup *s)
 {

@@ -14,7 +14,7 @@ typedef struct lmb_fill_context {
     const lmb_scene *scene;
     lmb_fill_window window;
 #if LMB_TREES
-    int32_t is_ahead; /* 1: triangles with holes are drawn a little behind their place, without ids; small ones not */
+    int32_t is_ahead; /* 1: draw_ahead draws; only large triangles, slightly farther away, without ids */
 #endif
 #if LMB_CULLING
     const lmb_culling *culling; /* or NULL */

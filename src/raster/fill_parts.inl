@@ -55,7 +55,7 @@ LANE_INLINE lane_mask parts_set(float *depth, lane_mask halves[2], const fill_sl
     lanei inside = lanei_or(width, height);
     halves[0] = lanei_lt(bottom, lanei_splat(LMB_TILE / 2));
     halves[1] = lanei_lt(lanei_splat(LMB_TILE / 2 - 1), top);
-    /* The part of the box in the tile: from its first pixel, no edge gains more than by the steps that raise it. */
+    /* The part of the box in the tile. From the first pixel of this part, an edge gains at most its positive steps. */
     const lanei corner = rows_way(lanei_add(to_x, left), lanei_add(to_y, top)), box = rows_way(width, height);
     for (int i = 0; i < 3; ++i) {
         const lanei first = rows_gain(lanei_load(slopes->edge[i] + k), corner);

@@ -4,8 +4,8 @@
  * branch costs as much as the rows of a tile. The steps are those of fill.inl, value by value; unrolled, because
  * compilers keep a loop. */
 
-/* An edge's gain per px, and a way in px: to the right in the low 16 bits, down in the high ones. One instruction
- * multiplies and adds both; products of 32 bits take two each. A small triangle's edges gain under 2^14 per px. */
+/* An edge's gain per px, or a way in px: to the right in the low 16 bits, down in the high 16 bits. One instruction
+ * multiplies both halves and adds the products. The edges of a small triangle gain under 2^14 per px. */
 LANE_INLINE lanei rows_slope(lanei ex, lanei ey) { return lanei_halves(ex, ey); }
 LANE_INLINE lanei rows_way(lanei x, lanei y) { return lanei_halves(x, y); }
 LANE_INLINE lanei rows_gain(lanei slope, lanei way) { return lanei_add_halves(slope, way); }

@@ -43,7 +43,7 @@ done
 cp photo.pfm faces/px.pfm
 status 0 render tent.obj $few --world faces/ -o face.png
 
-# --- notes that tell what to do ---
+# --- notes with a remedy ---
 
 printf 'v %s\n' '-1e-4 -1 -1' '-1e-4 1 -1' '-1e-4 1 1' '-1e-4 -1 1' '1e-4 -1 -1' '1e-4 1 -1' '1e-4 1 1' '1e-4 -1 1' >slit.obj
 printf 'f %s\n' '1 2 3 4' '5 6 7 8' '1 2 6 5' >>slit.obj
@@ -110,14 +110,14 @@ said 'cr.obj: line 3: "x" is not a number'
 printf '# by\rf 7 8 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >comment.obj
 status 0 info comment.obj # with LF in the file, CR ends no line
 
-# --- each verb tells what it left out of a model ---
+# --- a note about a texture that was left out ---
 
 printf 'newmtl a\nmap_Kd cut.png\n' >cut.mtl
 head -c 40 tent.png >cut.png 2>/dev/null || printf '\211PNG' >cut.png
 printf 'mtllib cut.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl a\nf 1/1 2/2 3/3\n' >cut.obj
 for verb in "render cut.obj $few -o cut.png.pfm" "bake cut.obj --elements 64 -o cut.lmt" "relief bake cut.obj --size 16 -o cut.lmr" "pack cut.obj -o cut.lmp"; do
     status 0 $verb
-    check "$verb tells that a texture was left out" grep -q "textures left out" err.txt
+    check "$verb prints no note about the texture" grep -q "textures left out" err.txt
 done
 
 # --- standard input under each of its names ---

@@ -38,7 +38,7 @@ status 0 plan demo --size 32x24 --threads 1 --gather live
 live=$(kib)
 check "a plan counts the memory of live light: $live KiB, not $full" test "$live" -gt "$full"
 check "a plan of live light says that it is planned as cuts" grep -q "^live light is planned as the cuts" out.txt
-# The memory of a plan is the memory of the picture.
+# A plan reports the memory that the picture takes.
 for how in "--gather live" "--gather full" "--samples 4 --bounces 2" "--show direct" "--group method=zones" "--many-lights 64"; do
     how="$how --size 32x24 --threads 2 --shadow-map 128 --tree 64 --elements 256"
     status 0 plan demo $how

@@ -262,7 +262,7 @@ late compare pipe.glb photo.pfm
 mkfifo endless.obj
 yes 'v 0 0 0' >endless.obj 2>/dev/null &
 late render endless.obj -q -o late/x.png
-# Nobody reads stdout and stderr, a pipe that is full.
+# stdout and stderr are a full pipe that nobody reads.
 mkfifo full
 exec 9<>full
 dd if=/dev/zero bs=4096 count=4096 >&9 2>/dev/null &

@@ -1,4 +1,4 @@
-/* masks.c: a thousand screens behind one another: how many pixels test alpha? And the same bytes triangle by triangle.
+/* masks.c: checks how many pixels of a thousand screens test alpha, and that drawing by triangle gives equal bytes.
  *
  * A test because it replaces a kernel; tools/hard/hard_cliff.c has the other scenes that need much work. */
 #include <math.h>

@@ -649,7 +649,7 @@ static void test_shows(void)
     CHECK(lit_pixels(&other) > FLOATS / 2 && lit_pixels(&reference) > FLOATS / 8);
 }
 
-/* A wall of LMB_UNLIT shows its colour, whatever the light; all else shows what it did. */
+/* A wall of LMB_UNLIT shows its albedo in any light. Other surfaces do not change. */
 static void test_unlit(void)
 {
     enum { WALL = 3 };

@@ -374,7 +374,7 @@ static void divides_colours(void)
     }
 }
 
-/* Parts with light by direction show what parts with receivers of the same light show, direct light included. */
+/* If light by direction and receivers have equal light, parts have equal colours, with direct light too. */
 static void divides_directed(void)
 {
     lmb_gouraud g = frame_of(vec3(0, 0.9f, 0), vec3(0, 0, 0));
@@ -475,7 +475,7 @@ static struct {
     lmb_light light;
     lmb_core core;
     lmb_scene scene;
-} alone;
+} lone;
 
 static lmb_gouraud square_under(lmb_vec3 middle, lmb_vec3 u, lmb_vec3 v)
 {
@@ -484,46 +484,46 @@ static lmb_gouraud square_under(lmb_vec3 middle, lmb_vec3 u, lmb_vec3 v)
     memset(&g, 0, sizeof g);
     for (int i = 0; i < 4; ++i) {
         const lmb_vec3 at = add3(middle, add3(mul3(u, i == 1 || i == 2 ? 1.0f : -1.0f), mul3(v, i < 2 ? -1.0f : 1.0f)));
-        alone.corner[i][0] = at.x, alone.corner[i][1] = at.y, alone.corner[i][2] = at.z;
+        lone.corner[i][0] = at.x, lone.corner[i][1] = at.y, lone.corner[i][2] = at.z;
     }
-    memset(&alone.mesh, 0, sizeof alone.mesh);
-    memset(&alone.material, 0, sizeof alone.material);
-    memset(&alone.instance, 0, sizeof alone.instance);
-    memset(&alone.scene, 0, sizeof alone.scene);
-    alone.mesh.positions = alone.corner;
-    alone.mesh.indices = indices;
-    alone.mesh.index_format = LMB_INDEX_U32;
-    alone.mesh.vertex_count = 4;
-    alone.mesh.triangle_count = 2;
-    alone.material.flags = LMB_DOUBLE_SIDED;
-    alone.material.alpha = 1.0f;
-    alone.material.texture = -1;
-    alone.instance.first_id = 1;
-    alone.scene.core = alone.core;
+    memset(&lone.mesh, 0, sizeof lone.mesh);
+    memset(&lone.material, 0, sizeof lone.material);
+    memset(&lone.instance, 0, sizeof lone.instance);
+    memset(&lone.scene, 0, sizeof lone.scene);
+    lone.mesh.positions = lone.corner;
+    lone.mesh.indices = indices;
+    lone.mesh.index_format = LMB_INDEX_U32;
+    lone.mesh.vertex_count = 4;
+    lone.mesh.triangle_count = 2;
+    lone.material.flags = LMB_DOUBLE_SIDED;
+    lone.material.alpha = 1.0f;
+    lone.material.texture = -1;
+    lone.instance.first_id = 1;
+    lone.scene.core = lone.core;
     for (int i = 0; i < 4; ++i) {
-        alone.instance.to_world.m[5 * i] = 1.0f;
+        lone.instance.to_world.m[5 * i] = 1.0f;
     }
-    alone.scene.meshes = &alone.mesh;
-    alone.scene.materials = &alone.material;
-    alone.scene.instances = &alone.instance;
-    alone.scene.lights = &alone.light;
-    alone.scene.mesh_count = alone.scene.material_count = alone.scene.instance_count = alone.scene.light_count = 1;
-    lmb_scene_bounds(&alone.scene.bounds_min, &alone.scene.bounds_max, &alone.scene);
-    CHECK(lmb_scene_check(&alone.scene) == LMB_OK);
-    CHECK(lmb_shadow_map_init(&map, &alone.light, &alone.scene, MAP, LMB_ID32, map_memory, sizeof map_memory) ==
+    lone.scene.meshes = &lone.mesh;
+    lone.scene.materials = &lone.material;
+    lone.scene.instances = &lone.instance;
+    lone.scene.lights = &lone.light;
+    lone.scene.mesh_count = lone.scene.material_count = lone.scene.instance_count = lone.scene.light_count = 1;
+    lmb_scene_bounds(&lone.scene.bounds_min, &lone.scene.bounds_max, &lone.scene);
+    CHECK(lmb_scene_check(&lone.scene) == LMB_OK);
+    CHECK(lmb_shadow_map_init(&map, &lone.light, &lone.scene, MAP, LMB_ID32, map_memory, sizeof map_memory) ==
           LMB_OK);
-    CHECK(lmb_gouraud_map(&map, &scratch, &alone.scene) == LMB_OK);
-    g.scene = &alone.scene;
+    CHECK(lmb_gouraud_map(&map, &scratch, &lone.scene) == LMB_OK);
+    g.scene = &lone.scene;
     g.maps = &map;
     return g;
 }
 
 static void light_alone(int32_t kind, lmb_vec3 direction)
 {
-    memset(&alone.light, 0, sizeof alone.light);
-    alone.light.kind = kind;
-    alone.light.direction = direction;
-    alone.light.intensity[0] = 1.0f;
+    memset(&lone.light, 0, sizeof lone.light);
+    lone.light.kind = kind;
+    lone.light.direction = direction;
+    lone.light.intensity[0] = 1.0f;
 }
 
 /* A point light in the centre: only the part behind the square is dark, on one of the six sides. */
@@ -554,11 +554,11 @@ static void shadows_by_core(void)
 {
     for (int wide = 0; wide < 2; ++wide) {
         light_alone(LMB_LIGHT_DIRECTIONAL, vec3(0, -1, 0));
-        alone.core.low = alone.core.wide_low = vec3(-0.5f, -0.5f, -0.5f);
-        alone.core.high = alone.core.wide_high = vec3(0.5f, 0.5f, 0.5f);
-        alone.core.wide_low.x = -8.0f;
-        alone.core.wide_high.x = 8.0f;
-        alone.core.faces = 2;
+        lone.core.low = lone.core.wide_low = vec3(-0.5f, -0.5f, -0.5f);
+        lone.core.high = lone.core.wide_high = vec3(0.5f, 0.5f, 0.5f);
+        lone.core.wide_low.x = -8.0f;
+        lone.core.wide_high.x = 8.0f;
+        lone.core.faces = 2;
         const float x = wide ? 6.0f : 0.0f;
         const lmb_gouraud g = square_under(vec3(x, 0, 0), mul3(X, 0.3f), mul3(Z, 0.3f));
         CHECK(map.faces == 2 && lmb_shadow_map_part(&map, vec3(x, -0.3f, 0)) == wide);
@@ -568,7 +568,7 @@ static void shadows_by_core(void)
             CHECK_MSG(got[0] == (float)i, "face %d, place %d: %g", wide, i, (double)got[0]);
         }
     }
-    memset(&alone.core, 0, sizeof alone.core);
+    memset(&lone.core, 0, sizeof lone.core);
 }
 
 /* A light's range, as for pixels. */
@@ -576,9 +576,9 @@ static void ends_by_range(void)
 {
     for (int kind = 0; kind < 2; ++kind) {
         light_alone(kind, vec3(0, -1, 0));
-        alone.light.cos_inner = 0.9f;
-        alone.light.cos_outer = 0.8f;
-        alone.light.range = 2.0f;
+        lone.light.cos_inner = 0.9f;
+        lone.light.cos_outer = 0.8f;
+        lone.light.range = 2.0f;
         const lmb_gouraud g = square_under(vec3(0, -4, 0), mul3(X, 0.1f), mul3(Z, 0.1f));
         for (int i = 1; i <= 12; ++i) {
             const float d = 0.25f * (float)i, by4 = d * d * d * d / 16.0f;

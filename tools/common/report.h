@@ -43,9 +43,9 @@ int report_fail_system(report *r, const char *format, ...) REPORT_PRINTF(2, 3);
 int report_is_usage(const report *r);
 int report_fail_usage(report *r, const char *format, ...) REPORT_PRINTF(2, 3);
 
-/* report_note: prints a line on stderr after the program's name, unless is_quiet. report_hold_notes: from now on notes
- * wait until report_print_notes, so that an error is the only line: report_end drops them. report_say and the first
- * step of progress print them. One thread at a time. */
+/* report_note: prints a line on stderr after the program's name, unless is_quiet. report_hold_notes: later notes
+ * wait for report_print_notes, report_say or the first step of progress. If the command fails before, report_end drops
+ * the notes, and the error is the only line. One thread at a time. */
 void report_note(int is_quiet, const char *format, ...) REPORT_PRINTF(2, 3);
 void report_hold_notes(void);
 void report_print_notes(void);

@@ -100,7 +100,7 @@ static lmb_status share(const workers *c, const lmb_render *r, int parts, pool_j
     return sum_up(&w, r->frame.stats);
 }
 
-/* Samples are costly where they are dense, so each thread takes many small parts of them. */
+/* Some rows have many more samples than others, so each thread runs many small parts. */
 enum { SAMPLE_PARTS = 16 };
 
 static lmb_status do_parts(const workers *c, lmb_render *r)

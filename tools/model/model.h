@@ -109,7 +109,7 @@ typedef struct model_choice {
     int32_t keeps_source;   /* 1: fill out->source if the file is glTF */
 } model_choice;
 
-/* model_tell: prints the notes, but for those about options that only `render` has. */
+/* model_tell: prints the notes, except those about options that only `render` has. */
 void model_tell(const model_notes *notes, int is_quiet);
 
 /* model_load: loads .gltf, .glb, .obj, .ply or .lmp, by content and extension. `scene` is the name or number of the
@@ -123,7 +123,7 @@ int model_read(model *out, const char *path, const char *scene, const uint8_t *d
                report *r);
 
 /* The same with more choices, if you need them; NULL: the defaults. Only model_load_as refuses a model that shows
- * nothing (view_any), unless its triangles move. */
+ * nothing (view_any). It accepts such a model if triangles of the model move. */
 int model_load_as(model *out, const char *path, const model_choice *choice, model_notes *notes, report *r);
 int model_read_as(model *out, const char *path, const model_choice *choice, const uint8_t *data, size_t size,
                   model_notes *notes, report *r);
