@@ -159,7 +159,7 @@ static void texel_of(int32_t *x, int32_t *y, const collector *c, int32_t column,
 
 /* Area of a block projected to the plane through `at`. A cross-section of the block's frustum is z^2 times the block at
  * distance 1, perpendicular to the view's axis. */
-static float area_of(const collector *c, lmb_vec3 at, lmb_vec3 normal)
+static float texel_area_at(const collector *c, lmb_vec3 at, lmb_vec3 normal)
 {
     const lmb_view *v = &c->face->view;
     const float block = 4.0f * v->half_width * v->half_height / (float)(c->side * c->side);
@@ -175,7 +175,7 @@ typedef struct blocks {
 } blocks;
 
 /* The share of a block that shows the surface of pixel k. */
-static float share_of(const collector *c, int k) { return (float)count_bits_16(c->shows[k]) * (1.0f / LMB_LIVE_NODES); }
+static float shown_share(const collector *c, int k) { return (float)count_bits_16(c->shows[k]) * (1.0f / LMB_LIVE_NODES); }
 
 /* Flux of joined blocks. */
 static void sum_flux(float sum[3], const collector *c, const blocks *b, const float *power, lmb_vec3 at)
@@ -184,7 +184,7 @@ static void sum_flux(float sum[3], const collector *c, const blocks *b, const fl
         const int k = b->first + i / b->wide * LMB_TILE + i % b->wide;
         float each[3];
         for (int h = 0; h < 3; ++h) {
-            each[h] = texel_flux(c->light->intensity[h], power[k] * share_of(c, k));
+            each[h] = texel_flux(c->light->intensity[h], power[k] * shown_share(c, k));
         }
         light_end_power(each, c->light, at);
         for (int h = 0; h < 3; ++h) {
@@ -215,7 +215,7 @@ static void set_point(lmb_live_point *out, collector *c, int32_t column, int32_t
     sum_flux(out->flux, c, b, power, at);
     out->position = at;
     out->normal = p->normal;
-    out->area = area_of(c, at, p->normal) * (float)(b->wide * b->wide) * share_of(c, k);
+    out->area = texel_area_at(c, at, p->normal) * (float)(b->wide * b->wide) * shown_share(c, k);
     out->id = c->tile->id[k];
     out->column = (uint16_t)column;
     out->row = (uint16_t)row;

@@ -599,7 +599,7 @@ static void share_block(const collection *c, int32_t x, int32_t y)
     }
 }
 
-static void share_row(const collection *c, int32_t y)
+static void share_texel_row(const collection *c, int32_t y)
 {
     for (int32_t x = 0; x < LMB_TILE; ++x) {
         if (c->work->power[LMB_TILE * y + x] > 0.0f) {
@@ -658,7 +658,7 @@ static void collect_map_tile(const collection *c)
         read_map_row(c, y);
         is_one = is_one && is_row_of(c, y, *block_id(c, -1, -1));
         for (; !is_one && next < y; ++next) {
-            share_row(c, next);
+            share_texel_row(c, next);
         }
     }
     if (is_one) {
