@@ -98,6 +98,7 @@ static void cross_masked(const lmb_setup *s, int32_t x, int32_t y)
     surface.blends = any_between(0, 1);
     surface.id = (uint32_t)any_between(1, 1 << 30);
     surface.batches = 0, surface.texture = NULL; /* kernels for whole tiles sum the same edges */
+    surface.job.behind = any_share();
     surface.part = any_between(0, 1) ? LMB_COVERS_ALL : COVERS_SOME;
     surface.x = any_between(0, LMB_MAX_FRAME), surface.y = any_between(0, LMB_MAX_FRAME);
     context.view = &view;
