@@ -48,7 +48,7 @@ typedef struct range {
 /* --- keys --------------------------------------------------------------------------------------------------------- */
 
 /* Spreads nine bits to every third bit. */
-static uint32_t spread_cell_bits(uint32_t v)
+static uint32_t cell_bits(uint32_t v)
 {
     v = (v | v << 16) & 0x030000ffu;
     v = (v | v << 8) & 0x0300f00fu;
@@ -69,7 +69,7 @@ static uint32_t side_of(lmb_vec3 n)
 static uint32_t place_key(const builder *b, lmb_vec3 place)
 {
     const lmb_vec3 at = mul3(sub3(place, b->low), b->per_cell);
-    return spread_cell_bits(cell_of(at.x)) | spread_cell_bits(cell_of(at.y)) << 1 | spread_cell_bits(cell_of(at.z)) << 2;
+    return cell_bits(cell_of(at.x)) | cell_bits(cell_of(at.y)) << 1 | cell_bits(cell_of(at.z)) << 2;
 }
 
 static uint32_t key_of(const builder *b, const lmb_live_point *p)

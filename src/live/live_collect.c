@@ -175,7 +175,10 @@ typedef struct blocks {
 } blocks;
 
 /* The share of a block that shows the surface of pixel k. */
-static float shown_share(const collector *c, int k) { return (float)count_bits_16(c->shows[k]) * (1.0f / LMB_LIVE_NODES); }
+static float shown_share(const collector *c, int k)
+{
+    return (float)count_bits_16(c->shows[k]) * (1.0f / LMB_LIVE_NODES);
+}
 
 /* Flux of joined blocks. */
 static void sum_flux(float sum[3], const collector *c, const blocks *b, const float *power, lmb_vec3 at)

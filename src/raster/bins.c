@@ -575,7 +575,7 @@ static lmb_status draw_rest(const lmb_target *target, const lmb_kernels *kernels
     const uint32_t left = b->end_id - b->past_id;
     return culling == NULL
                ? lmb_draw(target, kernels, &b->view, b->scene, b->past_id, left, b->flags, NULL)
-               : lmb_draw_culled(target, kernels, &b->view, b->scene, b->past_id, left, b->flags, culling, NULL);
+               : lmb_draw_culled(target, kernels, &b->view, b->scene, b->past_id, left, b->flags, 0, culling, NULL);
 }
 
 static lmb_status check_draw(const lmb_target *target, const lmb_kernels *kernels, const lmb_bins *bins, int32_t count,

@@ -3,6 +3,7 @@
  *
  * Scenes are random: on every backend, in every format, in windows that end within a tile. */
 #define _DEFAULT_SOURCE /* MAP_ANONYMOUS */
+#include <stdlib.h>
 #include <string.h>
 #ifdef __linux__
 #include <sys/mman.h>
@@ -90,8 +91,8 @@ static void draw_both(const lmb_kernels *kernels, const lmb_target t[2], uint32_
         culling.cluster_count = CLUSTERS;
     }
     CHECK(lmb_draw(&t[0], kernels, &st.view, &st.scene, 1, all, flags, &stats[0]) == LMB_OK);
-    CHECK(lmb_draw_culled(&t[1], kernels, &st.view, &st.scene, 1, half, flags, &culling, &stats[1]) == LMB_OK);
-    CHECK(lmb_draw_culled(&t[1], kernels, &st.view, &st.scene, 1 + half, all, flags, &culling, &stats[1]) == LMB_OK);
+    CHECK(lmb_draw_culled(&t[1], kernels, &st.view, &st.scene, 1, half, flags, 0, &culling, &stats[1]) == LMB_OK);
+    CHECK(lmb_draw_culled(&t[1], kernels, &st.view, &st.scene, 1 + half, all, flags, 0, &culling, &stats[1]) == LMB_OK);
     CHECK(lmb_surface_diff(&x, &y, &t[0].depth, &t[1].depth) == 0);
     CHECK(t[0].id.data == NULL || lmb_surface_diff(&x, &y, &t[0].id, &t[1].id) == 0);
     CHECK(too_far(&t[1].depth) == 0);
@@ -153,7 +154,7 @@ static void test_hidden(void)
             for (int k = 0; k < SIDE * SIDE; ++k) {
                 ((float *)t.depth.data)[k] = (float)(2 * i);
             }
-            CHECK(lmb_draw_culled(&t, lmb_kernels_at(m), &st.view, &st.scene, 1, all, 0, &culling, &stats[i]) ==
+            CHECK(lmb_draw_culled(&t, lmb_kernels_at(m), &st.view, &st.scene, 1, all, 0, 0, &culling, &stats[i]) ==
                   LMB_OK);
         }
         CHECK_MSG(stats[1].triangles_drawn * 2 < stats[0].triangles_drawn, "%s: %d, then %d",
@@ -174,7 +175,7 @@ static void test_dropped(void)
     const lmb_target t = window_of(1, LMB_DEPTH32F, LMB_ID32, LMB_TILED, SIDE, 0);
     const lmb_culling culling = {bound, st.cluster, TILES, CLUSTERS};
     memset(bound, 0, sizeof bound);
-    CHECK(lmb_draw_culled(&t, picked_kernels(), &st.view, &st.scene, 1, 5000, 0, &culling, &stats) == LMB_OK);
+    CHECK(lmb_draw_culled(&t, picked_kernels(), &st.view, &st.scene, 1, 5000, 0, 0, &culling, &stats) == LMB_OK);
     CHECK(stats.triangles_dropped == 2); /* once per instance */
     st.crowd[9 * 70] = 0.0f;
     CHECK(lmb_clusters_build(st.cluster, CLUSTERS, &st.scene) == LMB_OK && st.cluster[1].high.z < 100.0f);
@@ -197,11 +198,70 @@ static void test_refused(void)
     CHECK(lmb_clusters_build(NULL, CLUSTERS, &st.scene) == LMB_ERR_ARG);
     CHECK(lmb_clusters_build(st.cluster, CLUSTERS, NULL) == LMB_ERR_ARG);
     CHECK(lmb_clusters_build(st.cluster, 12, &st.scene) == LMB_ERR_CAPACITY);
-    CHECK(lmb_draw_culled(&t, k, &st.view, &st.scene, 1, 9, 0, NULL, NULL) == LMB_ERR_ARG);
-    CHECK(lmb_draw_culled(&t, k, &st.view, &st.scene, 0, 9, 0, &none, NULL) == LMB_ERR_ARG);
-    CHECK(lmb_draw_culled(&t, k, &st.view, &st.scene, 1, 9, 0, &few, NULL) == LMB_ERR_CAPACITY);
-    CHECK(lmb_draw_culled(&t, k, &st.view, &st.scene, 1, 9, 0, &short_of_clusters, NULL) == LMB_ERR_CAPACITY);
-    CHECK(lmb_draw_culled(&t, k, &st.view, &st.scene, 1, 9, 0, &none, NULL) == LMB_OK);
+    CHECK(lmb_draw_culled(&t, NULL, &st.view, &st.scene, 1, 9, 0, 0, NULL, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_draw_culled(&t, k, &st.view, &st.scene, 0, 9, 0, 0, &none, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_draw_culled(&t, k, &st.view, &st.scene, 1, 9, 0, 0, &few, NULL) == LMB_ERR_CAPACITY);
+    CHECK(lmb_draw_culled(&t, k, &st.view, &st.scene, 1, 9, 0, 0, &short_of_clusters, NULL) == LMB_ERR_CAPACITY);
+    CHECK(lmb_draw_culled(&t, k, &st.view, &st.scene, 1, 9, 0, 0, &none, NULL) == LMB_OK);
+}
+
+enum { FRESH_FRAME = 1024, FRESH_TILES = 128 * 128 + 15 };
+
+/* A window of 1,000 x 904 pixels over used memory. */
+static lmb_target fresh_window(void *depth, void *id, int32_t layout, int32_t depth_format)
+{
+    lmb_target t;
+    memset(&t, 0, sizeof t);
+    memset(depth, 0x3c, 4 * FRESH_FRAME * FRESH_FRAME);
+    memset(id, 0x3c, 4 * FRESH_FRAME * FRESH_FRAME);
+    t.depth = surface_of(depth_format, layout, 1000, 904, depth);
+    t.id = surface_of(LMB_ID32, layout, 1000, 904, id);
+    t.x0 = 8, t.y0 = 16;
+    return t;
+}
+
+/* With `clear`, lmb_draw_culled resets what was there: 40 triangles are drawn in strips, the whole scene is not. */
+static void test_fresh(void)
+{
+    const size_t bytes = 4 * FRESH_FRAME * FRESH_FRAME;
+    uint8_t *memory = malloc(4 * bytes);
+    float *farthest = malloc(FRESH_TILES * sizeof *farthest);
+    test_rng r = {29};
+    CHECK(memory != NULL && farthest != NULL);
+    for (int i = 0; memory != NULL && farthest != NULL && i < 8; ++i) {
+        lmb_target t[2];
+        lmb_stats stats[2];
+        int32_t x, y;
+        make_stage(&r, i % 4 == 3 ? LMB_ORTHOGRAPHIC : LMB_PERSPECTIVE);
+        st.view.frame_width = st.view.frame_height = FRESH_FRAME;
+        CHECK(lmb_clusters_build(st.cluster, CLUSTERS, &st.scene) == LMB_OK);
+        for (int k = 0; k < 2; ++k) {
+            t[k] = fresh_window(memory + (size_t)k * 2 * bytes, memory + ((size_t)k * 2 + 1) * bytes,
+                                i & 1 ? LMB_LINEAR : LMB_TILED, i & 4 ? LMB_DEPTH16 : LMB_DEPTH32F);
+        }
+        for (int32_t k = 0; k < FRESH_TILES; ++k) {
+            farthest[k] = 0.9f;
+        }
+        const lmb_culling culling = {i % 3 == 0 ? NULL : farthest, i % 3 == 1 ? NULL : st.cluster, FRESH_TILES, CLUSTERS};
+        const uint32_t count = i & 2 ? 40 : lmb_scene_triangles(&st.scene);
+        const lmb_kernels *kernels = lmb_kernels_at(i % 3) != NULL ? lmb_kernels_at(i % 3) : lmb_kernels_pick();
+        memset(stats, 0, sizeof stats);
+        lmb_surface_clear(&t[0].depth);
+        lmb_surface_clear(&t[0].id);
+        CHECK(lmb_draw(&t[0], kernels, &st.view, &st.scene, 1, count, 0, &stats[0]) == LMB_OK);
+        CHECK(lmb_draw_culled(&t[1], kernels, &st.view, &st.scene, 1, count, 0, 1, i == 6 ? NULL : &culling,
+                             i % 5 == 0 ? &stats[1] : NULL) == LMB_OK);
+        CHECK_MSG(lmb_surface_diff(&x, &y, &t[0].depth, &t[1].depth) == 0, "draw %d: %d, %d", i, (int)x, (int)y);
+        CHECK_MSG(lmb_surface_diff(&x, &y, &t[0].id, &t[1].id) == 0, "draw %d: %d, %d", i, (int)x, (int)y);
+        CHECK(stats[0].triangles_drawn > 0 && (i % 5 != 0 || stats[1].triangles == count));
+    }
+    const lmb_target t = fresh_window(memory, memory + bytes, LMB_TILED, LMB_DEPTH32F);
+    const lmb_culling few = {farthest, NULL, 17, 0};
+    CHECK(lmb_draw_culled(&t, picked_kernels(), &st.view, &st.scene, 1, 9, 0, 1, &few, NULL) == LMB_ERR_CAPACITY);
+    CHECK(lmb_draw_culled(&t, picked_kernels(), &st.view, &st.scene, 0, 9, 0, 1, NULL, NULL) == LMB_ERR_ARG);
+    CHECK(*(uint8_t *)t.depth.data == 0x3c); /* nothing was reset */
+    free(memory);
+    free(farthest);
 }
 
 /* Half of a batch lies outside the frame. Setup stores nothing for it, so leftovers of an earlier draw name tiles of
@@ -223,7 +283,7 @@ static void draw_at(const lmb_kernels *k, float pixel, int32_t x0, int is_half, 
         put_triangle(&r, st.crowd + 9 * i, at, 0.05f);
     }
     memset(farthest, 0, culling.tiles * sizeof *farthest);
-    CHECK(lmb_draw_culled(&t, k, &st.view, &st.scene, 1, 16, 0, &culling, NULL) == LMB_OK);
+    CHECK(lmb_draw_culled(&t, k, &st.view, &st.scene, 1, 16, 0, 0, &culling, NULL) == LMB_OK);
     for (int32_t i = 0; i < FAR_WINDOW * FAR_WINDOW; ++i) {
         seen += ((float *)t.depth.data)[i] > 0.0f;
     }
@@ -257,6 +317,7 @@ void test_culled(void)
 {
     test_half_a_batch();
     test_same_bytes();
+    test_fresh();
     test_hidden();
     test_dropped();
     test_refused();

@@ -140,7 +140,7 @@ static uint64_t judge(const lmb_kernels *kernels, int32_t depth_format, int32_t 
     const uint64_t id = t.id.data != NULL ? lmb_surface_hash(&t.id) : 0;
     t = target_of(depth_format, id_format, WIDTH, wide_depth, wide_id);
     memset(farthest, 0, sizeof farthest);
-    CHECK(lmb_draw_culled(&t, kernels, &view, &scene, 1, TRIANGLES, 0, &culling, NULL) == LMB_OK);
+    CHECK(lmb_draw_culled(&t, kernels, &view, &scene, 1, TRIANGLES, 0, 0, &culling, NULL) == LMB_OK);
     CHECK(lmb_surface_hash(&t.depth) == depth && (t.id.data == NULL || lmb_surface_hash(&t.id) == id));
 #endif
     return depth;
@@ -230,7 +230,7 @@ static void judge_nearly_flat(const lmb_kernels *kernels, int i)
     const lmb_culling culling = {farthest, NULL, SMALL_TILES + 15, 0};
     memset(farthest, 0, sizeof farthest);
     t.depth.data = culled;
-    CHECK(lmb_draw_culled(&t, kernels, &view, &scene, 1, 1, 0, &culling, NULL) == LMB_OK);
+    CHECK(lmb_draw_culled(&t, kernels, &view, &scene, 1, 1, 0, 0, &culling, NULL) == LMB_OK);
     CHECK_MSG(memcmp(whole, culled, sizeof whole) == 0, "%s, triangle %d", lmb_kernels_name(kernels), i);
 #endif
 }

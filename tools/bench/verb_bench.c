@@ -32,7 +32,7 @@ typedef struct options {
     const char *cases[CASES];
     int32_t case_count, threads;
     int32_t group; /* of hard_groups; -1: all */
-    int linear, culled, binned, plain, json, is_quiet, is_verbose;
+    int linear, plain, json, is_quiet, is_verbose;
     float seconds; /* per case */
 } options;
 
@@ -43,8 +43,7 @@ typedef struct canvas {
     void *depth, *id, *rgba, *linear;
     void *own_depth, *own_id; /* allocations of depth and id */
     size_t linear_bytes;
-    lmb_culling culling; /* clusters NULL: lmb_draw */
-    lmb_bins bins;       /* memory NULL: draw the mesh without bins */
+    lmb_culling culling;
     void *farthest, *clusters;
 } canvas;
 
@@ -75,26 +74,9 @@ static void store_colours(const canvas *c, const bench_scene *s, const lmb_kerne
     }
 }
 
-/* Bins clear the target themselves. */
 static void draw_ids(canvas *c, const bench_scene *s, const lmb_kernels *kernels, uint32_t flags)
 {
-    const uint32_t count = s->mesh.triangle_count;
-    const lmb_culling *culling = c->clusters != NULL ? &c->culling : NULL;
-    if (c->bins.memory != NULL) {
-        lmb_bins_build(&c->bins, kernels, &s->view, &s->scene, 1, count, flags, culling, NULL);
-        lmb_bins_draw(&c->target, kernels, &c->bins, 1, 1, culling);
-        return;
-    }
-    lmb_surface_clear(&c->target.depth);
-    if (c->id != NULL) {
-        lmb_surface_clear(&c->target.id);
-    }
-    if (culling != NULL) {
-        memset(c->farthest, 0, culling->tiles * sizeof(float));
-        lmb_draw_culled(&c->target, kernels, &s->view, &s->scene, 1, count, flags, culling, NULL);
-    } else {
-        lmb_draw(&c->target, kernels, &s->view, &s->scene, 1, count, flags, NULL);
-    }
+    lmb_draw_culled(&c->target, kernels, &s->view, &s->scene, 1, s->mesh.triangle_count, flags, 1, &c->culling, NULL);
 }
 
 static void draw_frame(canvas *c, const bench_scene *s, const lmb_kernels *kernels, int cull)
@@ -129,10 +111,9 @@ static void canvas_free(canvas *c)
     free(c->linear);
     free(c->farthest);
     free(c->clusters);
-    free(c->bins.memory);
 }
 
-/* Makes the clusters when the case is loaded, outside the frame time. */
+/* Makes the bounds, and the clusters when the case is loaded, outside the frame time. */
 static int canvas_cull(canvas *c, const bench_scene *s)
 {
     lmb_culling *culling = &c->culling;
@@ -168,11 +149,7 @@ static int canvas_make(canvas *c, const bench_case *k, const bench_scene *s, con
         lmb_surface_init(&c->target.id, LMB_ID32, k->width, k->height, c->id, id);
         lmb_surface_init(&c->out, LMB_RGBA8, k->width, k->height, c->rgba, 4 * pixels);
     }
-    if (o->binned) {
-        c->bins.bytes = lmb_bins_bytes(&s->view, s->mesh.triangle_count);
-        c->bins.memory = malloc(c->bins.bytes);
-    }
-    if ((o->culled && !canvas_cull(c, s)) || (o->binned && c->bins.memory == NULL)) {
+    if (!canvas_cull(c, s)) {
         canvas_free(c);
         return report_fail(r, "%s: out of memory", k->name);
     }
@@ -355,11 +332,6 @@ static const option_row raster_rows[] = {
     ROW_SECONDS("of each case (default 1.5)"),
     {.name = "--linear", .kind = OPTION_FLAG, AT(linear),
      .help = "also copies depth into plain rows, which other programs read"},
-    {.name = "--culled", .kind = OPTION_FLAG, AT(culled),
-     .help = "by lmb_draw_culled: without hidden surfaces, by clusters and by bounds that each frame resets"},
-    {.name = "--binned", .kind = OPTION_FLAG, AT(binned),
-     .help = "by lmb_bins_draw: triangles are set up into bins and drawn from there; with --culled also by clusters "
-             "and bounds"},
     {.name = "--peers", .value = "DIR", .kind = OPTION_TEXT, AT(peers),
      .help = "after each case runs every program of this folder on it, and prints the time and how many times our "
              "time that is; tools/README.md describes the output that such a program must print"},
