@@ -185,7 +185,7 @@ status 2 $stand --contact --no-contact -o bad.pfm
 status 1 $stand --floor on --world-centre 0,-1,0 -o bad.pfm
 said "under the --floor"
 status 0 relight --world white.pfm --object table.obj --size 16x12 -o framed.png
-said "no camera in table.obj: framing"
+said "framing the objects from"
 # Objects with many vertices are thinned: the contact of a ball hardly changes. The work is bounded
 # if many triangles cross.
 ball() { awk -v n="$1" 'BEGIN { p = atan2(0, -1)

@@ -144,7 +144,7 @@ static void text_of_gltf(const char *path)
         " 1: flat: orthographic, 4 x 2 m, at 0 0 0\n", "animations   2\n", "skins        1\n", "extensions   3\n",
         " KHR_lights_punctual: read, required\n", " KHR_texture_transform: folded in\n", " EXT_\"quoted\": ignored\n",
         "bounds       min ", " -4\n", " max ", " 2 ", " 0\n", " size ", " 4\n", "bytes        ", "notes        ",
-        " animations, which move things in `lambent play` alone: 2\n"};
+        " animations, which only `lambent play` shows: 2\n"};
     CHECK(info(path, NULL) == INFO_OK && complained[0] == '\0');
     SAYS(parts);
 }
@@ -216,7 +216,7 @@ static void json_of_gltf(const char *path, size_t png_size)
     CHECK(number("bounds", "min", "", NULL) == 0 && number("bounds", "max", "", NULL) == 1);
     CHECK(number("bounds", "size", "", NULL) == 1 && number("bytes", "other_files", NULL, NULL) == (double)png_size);
     CHECK(number("bytes", "file", NULL, NULL) == (double)(sizeof run_all - 1));
-    CHECK(json_count(&doc, find("notes", NULL, NULL, NULL)) > 0 && strstr(said, "\"animations, which move things in `lambent play` alone: 2\""));
+    CHECK(json_count(&doc, find("notes", NULL, NULL, NULL)) > 0 && strstr(said, "\"animations, which only `lambent play` shows: 2\""));
     json_free(&doc);
 }
 

@@ -421,7 +421,8 @@ int verb_bake(int argc, char **argv)
              (is_demo || model_load_as(&loaded, o.scene, &o.choice, &notes, &r)) && options_files(&o, &table, &r) &&
              (!o.is_glossy || model_make_glossy(&loaded) ||
               report_fail_usage(&r, "--glossy: %s: only glTF's materials have a lobe", o.scene)) &&
-             (model_tell(&notes, o.is_quiet), bake_model(&o, is_demo ? demo_scene() : &loaded.scene, &loaded, &r));
+             (model_tell(&notes, o.scene, MODEL_NOTE_OPTION),
+              bake_model(&o, is_demo ? demo_scene() : &loaded.scene, &loaded, &r));
     progress_end();
     model_free(&loaded);
     report_note(!ok || !o.is_verbose, "baked in %.1f s", host_seconds() - start);

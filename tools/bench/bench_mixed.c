@@ -69,6 +69,7 @@ static int mix_once(void *user, double stage_s[BENCH_STAGES], report *r)
     int ok = mix_find_planes(m->job, r);
     stage_s[0] = lap(&from);
     ok = ok && mix_place(m->job, r) && mix_light(m->job, r);
+    model_tell(&m->job->notes, m->job->o.object, MODEL_NOTE_OPTION);
     stage_s[1] = lap(&from);
     ok = ok && mix_voxels(m->job, r);
     stage_s[2] = lap(&from);

@@ -140,8 +140,11 @@ static int load(statue *s, report *r)
 {
     static model_notes notes;
     memset(&notes, 0, sizeof notes);
-    return model_load_as(&s->loaded, s->model, &s->choice, &notes, r) &&
-           relief_flatten(&s->mesh, &s->loaded.scene, r);
+    if (!model_load_as(&s->loaded, s->model, &s->choice, &notes, r)) {
+        return 0;
+    }
+    model_tell(&notes, s->model, MODEL_NOTE_OPTION);
+    return relief_flatten(&s->mesh, &s->loaded.scene, r);
 }
 
 static int bake(statue *s, report *r)

@@ -22,6 +22,7 @@ int model_load_as(model *out, const char *path, const model_choice *choice, mode
     (void)out, (void)path, (void)choice, (void)notes;
     return fail(r);
 }
+void model_tell(const model_notes *notes, const char *name, int hides) { (void)notes, (void)name, (void)hides; }
 int model_make_glossy(model *m) { (void)m; return 0; }
 void model_free(model *m) { (void)m; }
 int lmt_open(lmb_transfer *out, const file_bytes *file, const char *path, report *r)

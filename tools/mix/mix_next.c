@@ -105,9 +105,6 @@ static int draw_one(mix_job **job, mix_kept *k, report *r)
     if (!mix_make_picture(j, &from, r)) {
         return 0;
     }
-    if (k->frames == 0) {
-        mix_tell(j);
-    }
     mix_tell_times(j);
     if (j->o.object != NULL && !mix_keep(k, j, r)) {
         return 0;

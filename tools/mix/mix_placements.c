@@ -378,7 +378,7 @@ static int load(mix_thing *t, const placements *p, const list_row *row, report *
         !model_load_as(&t->object, row->mesh, &j->o.choice, &notes, &own)) {
         return report_fail(r, "%s: line %d: %s", p->path, (int)row->line, own.text);
     }
-    model_tell(&notes, j->o.is_quiet);
+    model_tell(&notes, row->mesh, MODEL_NOTE_OPTION);
     t->path = row->mesh;
     const model was = j->object;
     j->object = t->object;

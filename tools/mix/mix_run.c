@@ -7,6 +7,7 @@
 
 #include "../../platform/host/host.h"
 #include "../picture/picture.h"
+#include "mix_frames.h"
 
 static void tell_place(const mix_job *j)
 {
@@ -49,14 +50,17 @@ static void tell_size(const mix_job *j)
                 "part of the object is off the picture; --at X,Y sets its place and --scale its size");
 }
 
-void mix_tell(const mix_job *j)
+/* Prints notes about the object, before the long work. */
+static void tell_object(const mix_job *j)
 {
-    model_tell(&j->notes, j->o.is_quiet);
-    if (j->o.object == NULL || j->o.at == MIX_AT_WORLD || j->o.show == MIX_PLANES) { /* it was not placed */
+    if (j->o.object == NULL) {
         return;
     }
-    tell_place(j);
-    tell_size(j);
+    model_tell(&j->notes, j->o.object, MODEL_NOTE_OPTION);
+    if (j->o.at != MIX_AT_WORLD) { /* it was placed */
+        tell_place(j);
+        tell_size(j);
+    }
 }
 
 void mix_tell_times(const mix_job *j)
@@ -95,6 +99,10 @@ int mix_make_picture(mix_job *j, double *from, report *r)
     j->place_s = mix_lap(from);
     ok = ok && mix_light(j, r);
     j->light_s = mix_lap(from);
+    if (ok && (j->kept == NULL || j->kept->frames == 0)) {
+        tell_object(j);
+        report_print_notes();
+    }
     if (j->o.show == MIX_ENV) {
         return ok && mix_show_env(j, r);
     }

@@ -4,12 +4,11 @@
 
 #include "mix_job.h"
 
-/* mix_make_picture: draws a frame that was read and has planes. mix_lap: seconds since *from, which becomes now.
- * mix_exposure: stops, of the picture. mix_tell, mix_tell_times: print notes about it. */
+/* mix_make_picture: draws a frame that was read and has planes; before the long work it prints notes about the object.
+ * mix_lap: seconds since *from, which becomes now. mix_exposure: stops, of the picture. mix_tell_times: prints them. */
 int mix_make_picture(mix_job *j, double *from, report *r);
 double mix_lap(double *from);
 float mix_exposure(const mix_job *j);
-void mix_tell(const mix_job *j);
 void mix_tell_times(const mix_job *j);
 
 /* mix_placements: draws all pictures of a list of placements in one photo. Returns 1, or 0 with `r` set. */

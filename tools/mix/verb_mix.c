@@ -45,7 +45,6 @@ static int mix(mix_job *j, report *r)
     if (!ok || !mix_make_picture(j, &from, r)) {
         return 0;
     }
-    mix_tell(j);
     mix_tell_times(j);
     const float exposure_ev = mix_exposure(j);
     return picture_write(j->o.out, &j->picture, exposure_ev, PICTURE_CLIPPED, r) &&

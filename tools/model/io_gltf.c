@@ -223,9 +223,10 @@ static void tell_left_out(gltf *g)
     build_note_count(g->b, "primitives with vertices left over, which are dropped", n->ragged);
     build_note_count(g->b, "primitives without a material, drawn white", n->bare);
     build_note_count(g->b, "BLEND materials, which light passes or does not by alpha 0.5", n->blends);
-    build_note_count(g->b, "metallic materials, which reflect with --glossy only", n->metals);
-    build_note_count(g->b, "metallic maps used by their mean without --glossy, 0 where one cannot be read",
-                     n->metal_maps);
+    build_note_count_of(g->b, MODEL_NOTE_OPTION, "metallic materials, which reflect with --glossy only", n->metals);
+    build_note_count_of(g->b, MODEL_NOTE_OPTION,
+                        "metallic maps used by their mean without --glossy, 0 where one cannot be read",
+                        n->metal_maps);
     build_note_count(g->b, "specular-glossiness maps used by their mean, or left out where one cannot be read",
                      n->gloss_maps);
     build_note_count(g->b, "unlit materials, shown by their own colour; to other surfaces they are as any", n->unlit);
@@ -243,8 +244,8 @@ static void tell_left_out(gltf *g)
                      "animations do", n->skins);
     build_note_count(g->b, "primitives whose morph targets move colours or texture coordinates, which stay",
                      n->odd_morphs);
-    build_note_count(g->b, "animations, which move things in `lambent play` alone",
-                     json_count(&g->doc, json_member(&g->doc, 0, "animations")));
+    build_note_count_of(g->b, MODEL_NOTE_MOTION, "animations, which only `lambent play` shows",
+                        json_count(&g->doc, json_member(&g->doc, 0, "animations")));
 }
 
 /* Counts the meshes that the scene may need: one for each primitive, and copies for nodes with another shape. */

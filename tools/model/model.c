@@ -138,7 +138,8 @@ static void note_emission(model_build *b)
         count += e[0] > 0.0f || e[1] > 0.0f || e[2] > 0.0f;
     }
     if (count)
-        build_note(b, "emissive materials, which light the scene (but with fixed groups): %u", (unsigned)count);
+        build_note_of(b, MODEL_NOTE_OPTION, "emissive materials, which light the scene (but with fixed groups): %u",
+                      (unsigned)count);
 }
 
 /* Counts facts that a reader has not set: the file has as much as the scene, with one primitive per mesh. */
@@ -224,7 +225,7 @@ static int load_content(model_build *b, const file_bytes *file)
     if (b->scene && read != gltf_load)
         return report_fail_usage(b->r, "--scene %.60s: %s: only glTF files hold several", b->scene, b->path);
     if (b->linear_colours && read != obj_load && read != ply_load)
-        build_note(b, "--vertex-colours linear changes nothing: OBJ and PLY alone leave it open");
+        build_note(b, "--vertex-colours linear changes nothing: only OBJ and PLY leave it open");
     return read(b, file->data, file->size);
 }
 
@@ -294,15 +295,6 @@ int model_read(model *out, const char *path, const char *scene, const uint8_t *d
 {
     const model_choice choice = {scene, MODEL_COLOURS_SRGB, 0};
     return model_read_as(out, path, &choice, data, size, notes, r);
-}
-
-void model_tell(const model_notes *notes, int is_quiet)
-{
-    for (uint32_t i = 0; i < notes->count; ++i) {
-        const char *line = notes->line[i];
-        report_note(is_quiet || strstr(line, "--glossy") != NULL || strstr(line, "fixed groups") != NULL, "note: %s",
-                    line);
-    }
 }
 
 int model_load(model *out, const char *path, const char *scene, model_notes *notes, report *r)

@@ -98,8 +98,12 @@ typedef struct model {
 /* A line for the user that is not an error ("3 lines and points skipped"), printed by the caller after loading. */
 typedef struct model_notes {
     char line[16][200];
+    uint8_t kind[16]; /* MODEL_NOTE_ */
     uint32_t count;
 } model_notes;
+
+/* Kinds of notes: about an option that only `render` has; about motion that only `play` shows; others. */
+enum { MODEL_NOTE_PLAIN = 0, MODEL_NOTE_OPTION = 1, MODEL_NOTE_MOTION = 2 };
 
 /* Choices that the file leaves open. Zeros are the defaults. */
 enum { MODEL_COLOURS_SRGB = 0, MODEL_COLOURS_LINEAR };
@@ -109,8 +113,9 @@ typedef struct model_choice {
     int32_t keeps_source;   /* 1: fill out->source if the file is glTF */
 } model_choice;
 
-/* model_tell: prints the notes, except those about options that only `render` has. */
-void model_tell(const model_notes *notes, int is_quiet);
+/* model_tell: prints the notes after the model's name, unless the program is quiet. It leaves out notes of the kinds in
+ * `hides`, a sum of MODEL_NOTE_, and lines that it printed before. */
+void model_tell(const model_notes *notes, const char *name, int hides);
 
 /* model_load: loads .gltf, .glb, .obj, .ply or .lmp, by content and extension. `scene` is the name or number of the
  * scene to load; NULL: the default scene of the file. Returns 1, or 0 with `r` set and *out empty. */

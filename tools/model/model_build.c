@@ -76,30 +76,51 @@ int build_materials(model_build *b, uint64_t count)
     return b->materials != NULL;
 }
 
-void build_note(model_build *b, const char *format, ...)
+static void add_note(model_build *b, int kind, const char *format, va_list args)
 {
     model_notes *n = b->notes;
     const uint32_t room = sizeof n->line / sizeof n->line[0];
     char line[sizeof n->line[0]];
-    va_list args;
     uint32_t i;
-    va_start(args, format);
     vsnprintf(line, sizeof line, format, args);
-    va_end(args);
     for (i = 0; i < n->count; ++i)
         if (strcmp(n->line[i], line) == 0)
             return;
     if (n->count == room) {
         snprintf(n->line[room - 1], sizeof line, "more notes than %u; the rest is left out", (unsigned)room);
+        n->kind[room - 1] = MODEL_NOTE_PLAIN;
         return;
     }
+    n->kind[n->count] = (uint8_t)kind;
     memcpy(n->line[n->count++], line, sizeof line);
+}
+
+void build_note(model_build *b, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    add_note(b, MODEL_NOTE_PLAIN, format, args);
+    va_end(args);
+}
+
+void build_note_of(model_build *b, int kind, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    add_note(b, kind, format, args);
+    va_end(args);
 }
 
 void build_note_count(model_build *b, const char *what, uint32_t count)
 {
     if (count)
         build_note(b, "%s: %u", what, (unsigned)count);
+}
+
+void build_note_count_of(model_build *b, int kind, const char *what, uint32_t count)
+{
+    if (count)
+        build_note_of(b, kind, "%s: %u", what, (unsigned)count);
 }
 
 float build_float(double v) { return v > 3.4e38 ? (float)INFINITY : v < -3.4e38 ? -(float)INFINITY : (float)v; }

@@ -72,6 +72,10 @@ void build_note(model_build *b, const char *format, ...) REPORT_PRINTF(2, 3);
 /* build_note_count: adds "WHAT: COUNT" if the count is not 0. */
 void build_note_count(model_build *b, const char *what, uint32_t count);
 
+/* The same for a note of a kind, MODEL_NOTE_. */
+void build_note_of(model_build *b, int kind, const char *format, ...) REPORT_PRINTF(3, 4);
+void build_note_count_of(model_build *b, int kind, const char *what, uint32_t count);
+
 /* Converts numbers of files to binary32. build_float: an infinity beyond the range, which the library drops; a plain
  * cast would be undefined. build_uv: 0 if the number is useless as a texture coordinate. build_normal: unit length;
  * if there is no direction, +Y, and increments *zeros. */

@@ -8,6 +8,7 @@
 #include "../../platform/host/host.h"
 #include "../common/option_value.h"
 #include "../common/options.h"
+#include "../common/progress.h"
 #include "../demo/demo_scene.h"
 #include "../model/io_lmt.h"
 #include "../model/model_motion.h"
@@ -214,10 +215,10 @@ static void tell(const options *o, const pack *p, const lmb_pack *opened, size_t
                (unsigned)opened->count[LMB_PACK_MESHES], (unsigned)opened->count[LMB_PACK_TEXTURES]);
     if (is_new) {
         say_losses(&p->lost);
-        report_note(p->lost.dropped == 0, "triangles without area or vertices, which are left out: %u",
+        report_note(p->lost.dropped == 0, "note: triangles without area or vertices, which are left out: %u",
                     (unsigned)p->lost.dropped);
         report_note(p->lost.float_meshes == 0 || (o->position_given > 0 && o->position_error == 0.0f),
-                    "meshes whose positions stay in 32 bits, as they are too large for the error: %u",
+                    "note: meshes whose positions stay in 32 bits, as they are too large for the error: %u",
                     (unsigned)p->lost.float_meshes);
     }
     if (o->has_report) {
@@ -336,15 +337,16 @@ int verb_pack(int argc, char **argv)
     if (is_demo) {
         make_demo(&loaded, &camera);
     }
+    progress_begin(o.is_quiet, "pack");
     int ok = options_files(&o, &table, &r) && (is_demo || model_load_as(&loaded, o.scene, &o.choice, &notes, &r)) &&
              options_files(&o, &table, &r) &&
              (!o.is_glossy || loaded.pack != NULL || model_make_glossy(&loaded) ||
               report_fail_usage(&r, "--glossy: %s: only glTF's materials have a lobe", o.scene));
-    for (uint32_t i = 0; ok && i < notes.count; ++i) {
-        report_note(o.is_quiet, "%s", notes.line[i]);
+    if (ok) {
+        model_tell(&notes, o.scene, MODEL_NOTE_PLAIN);
     }
     report_note(!ok || o.is_quiet || loaded.motion == NULL || loaded.motion->shapes == NULL,
-                "skins and morph targets that animations move stand still in what is packed");
+                "note: skins and morph targets that animations move stand still in what is packed");
     ok = ok && pack_scene(&o, &loaded, &r);
     if (!is_demo) {
         model_free(&loaded);

@@ -167,7 +167,7 @@ static int load(model *out, const char *path, const relief_options *o, report *r
     if (!model_load_as(out, path, &o->choice, &notes, r)) {
         return 0;
     }
-    model_tell(&notes, o->view.is_quiet);
+    model_tell(&notes, path, MODEL_NOTE_OPTION);
     return 1;
 }
 

@@ -337,7 +337,7 @@ static int bake(work *w, const options *o, report *r)
         return 0;
     }
     for (int i = 0; i < 2; ++i) {
-        model_tell(&w->notes[i], o->is_quiet);
+        model_tell(&w->notes[i], i == 0 ? o->model : o->simple, MODEL_NOTE_OPTION);
     }
     if (!o->is_quiet) {
         tell(w, o, &coverage);

@@ -401,9 +401,15 @@ static int take_view(stage *s, report *r)
                            lmb_status_name(valid));
     }
     memset(&l->view, 0, sizeof l->view);
-    if (!(v->has_eye ? view_look(&l->view, v, r) : view_frame(&l->view, v, scene, s->o->object, r))) {
+    const int is_quiet = v->is_quiet;
+    v->is_quiet = 1; /* no note about a camera of the object, which relight does not use */
+    const int ok = v->has_eye ? view_look(&l->view, v, r) : view_frame(&l->view, v, scene, s->o->object, r);
+    v->is_quiet = is_quiet;
+    if (!ok) {
         return 0;
     }
+    report_note(is_quiet || v->has_eye, "framing the objects from %.4g,%.4g,%.4g; --eye sets another place",
+                (double)l->view.eye.x, (double)l->view.eye.y, (double)l->view.eye.z);
     l->view.near_m = v->near_m;
     if (eyes_apart(s) > 0.0f) {
         s->middle = l->view;

@@ -25,6 +25,6 @@ int figures_load_model(model *out, const char *name, const relight_options *o, r
     } else if (!model_load_as(out, name, &o->choice, &notes, r)) {
         return 0;
     }
-    model_tell(&notes, o->view.is_quiet);
+    model_tell(&notes, name, MODEL_NOTE_OPTION);
     return 1;
 }

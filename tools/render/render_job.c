@@ -136,9 +136,7 @@ int render_job_load(render_job *j, report *r)
 /* Called when only memory can still fail, because an error should be the only line. */
 static void tell_notes(const render_job *j)
 {
-    for (uint32_t i = 0; i < j->notes.count; ++i) {
-        report_note(j->o.view.is_quiet, "note: %s", j->notes.line[i]);
-    }
+    model_tell(&j->notes, j->o.scene, j->hides);
 }
 
 /* Returns whether light is emitted without lights. */

@@ -20,6 +20,7 @@ typedef struct render_job {
     lmb_transfer transfer; /* points into transfer_file */
     model loaded;
     model_notes notes;
+    int hides; /* kinds of notes that do not apply, a sum of MODEL_NOTE_ */
     lmb_scene scene; /* loaded or built-in, with the lights of this run */
     world around; /* a sky, or none */
     int32_t gathers_sky; /* many_lights contains only lights of the sky */
