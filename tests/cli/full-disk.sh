@@ -13,7 +13,9 @@ if [ -e /dev/full ]; then
         tool "$@" >/dev/full 2>err.txt
         got=$?
         check "lambent $* >/dev/full: exit status $got" test $got -eq 1
-        check "lambent $* >/dev/full: one line" test "$(grep -c -e 'cannot be written' -e 'could not be written' err.txt)" -eq 1
+        cause=": No space left on device"
+        [ "$1" != lambent-bench ] || cause= # it writes each line at once, so at its end the cause is no longer known
+        check "lambent $* >/dev/full: one line" test "$(grep -c "cannot be written$cause" err.txt)" -eq 1
     }
     full --version
     full --help

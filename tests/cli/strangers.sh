@@ -178,10 +178,12 @@ ln -s own.gltf in/near.gltf
 ln -s ../out/photo.pfm in/away.pfm
 ln -s ../out in/gone
 for verb in "render in/away.gltf $few -o x.png" "info in/away.gltf" "pack in/away.gltf -o x.lmp" "render in/near.gltf --world in/away.pfm $few -o x.png" \
-    "relight --world in/away.pfm --object tent.obj -o x.png" "mix --photo in/away.pfm --depth wall.pfm --intrinsics 30,30,11.5,11.5 --object tent.obj --scale 0.2 --at 8,12 -o x.png"; do
+    "compare in/away.pfm in/away.pfm" "relight --world in/away.pfm --object tent.obj -o x.png" "mix --photo in/away.pfm --depth wall.pfm --intrinsics 30,30,11.5,11.5 --object tent.obj --scale 0.2 --at 8,12 -o x.png"; do
     status 1 $verb --only-here
     said "a link that leads out of its folder (--only-here)"
 done
+"$TOOL" merge in/away.pfm -o x.png --only-here >out.txt 2>err.txt
+said "a link that leads out of its folder (--only-here)"
 status 1 info /proc/self/cwd/in/away.gltf --only-here # by the name of a folder that the system links
 said "a link that leads out of its folder (--only-here)"
 status 0 info in/away.gltf

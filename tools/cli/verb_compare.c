@@ -67,6 +67,7 @@ static const option_row rows[] = {
      .help = "print no figures, only set the exit status"},
     {.name = "--verbose", .brief = "-v", .kind = OPTION_VERBOSE, AT(is_verbose),
      .help = "print how each picture was read, and how many pixels count"},
+    OPTION_ONLY_HERE,
     OPTION_TIME_LIMIT,
     OPTION_ASK,
     {.kind = OPTION_END},
@@ -90,7 +91,8 @@ static const option_table table = {
              "psnr: dB, over red, green and blue; full scale is 255 if both files are 8-bit (then psnr and max are "
              "in sRGB codes), otherwise the largest value of B (then they are in linear light);\n"
              "max: largest difference of a channel, and the first pixel x,y (from the top left);\n"
-             "exact: pixels with equal bits (alpha included); first: the first pixel that differs.",
+             "exact: pixels with equal bits (alpha included); first: the first pixel that differs.\n"
+             "A figure is - if it is relative to a B that is black.",
     .part = {rows},
     .examples = "  error of a draft against the default settings:\n"
                 "    lambent render demo --size 80x60 --quality draft -o draft.pfm\n"
@@ -311,36 +313,42 @@ static int measure(results *out, const loaded *l, const options *o, report *r)
 
 /* -- output ------------------------------------------------------------------------------------------------------- */
 
-/* Values relative to a black truth are infinite. */
-static double shown(double v) { return fabs(v) >= 1e20 ? copysign((double)INFINITY, v) : v; }
+/* Values relative to a black truth have no meaning. */
+static int has_meaning(double v) { return fabs(v) < 1e20; }
 
-static void text_number(FILE *out, const char *name, double v)
+static void text_number(FILE *out, const char *name, double v, int digits)
 {
-    fprintf(out, fabs(v) < 1e6 ? "%s %.4f " : "%s %.4g ", name, shown(v));
+    if (has_meaning(v))
+        fprintf(out, fabs(v) < 1e6 ? "%s %.*f" : "%s %.*g", name, digits, v);
+    else
+        fprintf(out, "%s -", name);
 }
 
 static void print_text(FILE *out, const results *res, const options *o)
 {
     const metrics *m = &res->figures;
     const metrics_equality *e = &res->equality;
-    text_number(out, "trim", m->trim);
-    text_number(out, "rmse", m->rmse);
-    fprintf(out, "(n90 %" PRIu64 ") ", m->n90);
-    text_number(out, "e50", m->e50);
-    text_number(out, "e95", m->e95);
-    text_number(out, "e99", m->e99);
-    text_number(out, "worst", res->worst);
-    if (res->worst_x >= 0)
-        fprintf(out, "at %d,%d ", (int)res->worst_x, (int)res->worst_y);
-    fprintf(out, fabs(m->mean) < 1e6 ? "mean %.4f" : "mean %.4g", shown(m->mean));
+    text_number(out, "trim", m->trim, 4);
+    text_number(out, " rmse", m->rmse, 4);
+    fprintf(out, " (n90 %" PRIu64 ")", m->n90);
+    text_number(out, " e50", m->e50, 4);
+    text_number(out, " e95", m->e95, 4);
+    text_number(out, " e99", m->e99, 4);
+    text_number(out, " worst", res->worst, 4);
+    if (res->worst_x >= 0 && has_meaning(res->worst))
+        fprintf(out, " at %d,%d", (int)res->worst_x, (int)res->worst_y);
+    text_number(out, " mean", m->mean, 4);
     if (m->has_leak)
-        fprintf(out, " leak %.3f", m->leak);
+        text_number(out, " leak", m->leak, 3);
     if (m->nonfinite)
         fprintf(out, " NONFINITE %" PRIu64, m->nonfinite);
     if (!res->ok && o->max)
         report_print(out, " [bound %s]", o->max);
-    fprintf(out, "\npsnr %.2f dB (rgb, %s, peak %.6g) max %.6g", e->psnr_db, res->in_codes ? "sRGB codes" : "linear",
-            e->peak, e->max_abs);
+    if (e->peak > 0.0 || e->exact == e->pixels)
+        fprintf(out, "\npsnr %.2f dB", e->psnr_db);
+    else
+        fprintf(out, "\npsnr -");
+    fprintf(out, " (rgb, %s, peak %.6g) max %.6g", res->in_codes ? "sRGB codes" : "linear", e->peak, e->max_abs);
     if (e->max_x >= 0)
         fprintf(out, " at %d,%d", (int)e->max_x, (int)e->max_y);
     fprintf(out, " exact %" PRIu64 " of %" PRIu64, e->exact, e->pixels);
@@ -352,7 +360,7 @@ static void print_text(FILE *out, const results *res, const options *o)
 /* JSON has no infinity and no NaN. */
 static void json_number(FILE *out, const char *name, double v)
 {
-    if (isfinite(shown(v)))
+    if (has_meaning(v))
         fprintf(out, "\"%s\":%.9g,", name, v);
     else
         fprintf(out, "\"%s\":null,", name);
@@ -446,9 +454,7 @@ static int deliver(FILE *out, FILE *err, const results *res, const loaded *l, co
     tell_taken(err, l, o, &res->figures);
     if (!o->is_quiet)
         o->json ? print_json(out, res, l) : print_text(out, res, o);
-    if (fflush(out) != 0 || ferror(out))
-        return report_fail(r, "the figures could not be written");
-    return !o->heat || write_heat(l, &res->figures, o->heat, r);
+    return report_flush_to(out, r) && (!o->heat || write_heat(l, &res->figures, o->heat, r));
 }
 
 /* Returns the exit status. */

@@ -583,7 +583,7 @@ int info_to(FILE *out, FILE *err, int argc, char **argv)
     progress_begin(o.is_quiet, "info");
     const double start = host_seconds();
     int ok = file_info(out, &o, &r);
-    ok = ok && ((fflush(out) == 0 && !ferror(out)) || report_fail(&r, "the figures could not be written"));
+    ok = ok && report_flush_to(out, &r);
     if (ok && o.is_verbose) {
         fprintf(err, "lambent: read in %.1f ms\n", (host_seconds() - start) * 1e3);
     }

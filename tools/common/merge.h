@@ -17,6 +17,7 @@ typedef struct merge_options {
      .counts = offsetof(merge_options, slices), .times = MERGE_FILES, .size = sizeof(const char *),              \
      .help = "files written with `--slice I/N`, OUT.IofN: all N of one job, in any order; duplicates are allowed"}, \
     {.name = "-o", .value = "OUT", .kind = OPTION_TEXT, .at = offsetof(merge_options, out), .help = output},     \
+    OPTION_ONLY_HERE,                                                                                            \
     OPTION_LOUDNESS(merge_options, is_quiet, is_verbose, "print the job of the slices"),                         \
     OPTION_ASK,                                                                                                  \
     {.kind = OPTION_END}

@@ -487,17 +487,17 @@ int options_answer_to(FILE *out, FILE *err, int asked, const option_table *t, co
         return 2;
     }
 #if !defined(OPTIONS_WITHOUT_HELP)
+    report written = {""};
     if (asked == OPTIONS_ASK_HELP) {
         (is_man_page ? options_man : options_help)(out, t);
     } else {
         options_version(out);
     }
+    return report_flush_to(out, &written) ? 0 : report_end_to(err, &written, t->verb, 1);
+#else
+    options_version(out);
+    return 0;
 #endif
-    if (fflush(out) == 0 && !ferror(out)) {
-        return 0;
-    }
-    fprintf(err, "%s: the help could not be written\n", command_name(t->verb));
-    return 1;
 }
 
 int options_answer(int asked, const option_table *t, const report *r)

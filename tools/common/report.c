@@ -93,13 +93,15 @@ void report_say(const char *format, ...)
 
 void report_take_stdout(void) { is_taken = 1; }
 
-int report_flush(report *r)
+int report_flush_to(FILE *out, report *r)
 {
     errno = 0;
-    return (fflush(stdout) == 0 && !ferror(stdout)) ||
+    return (fflush(out) == 0 && !ferror(out)) ||
            report_fail(r, "standard output: cannot be written%s%s", errno != 0 ? ": " : "",
                        errno != 0 ? strerror(errno) : "");
 }
+
+int report_flush(report *r) { return report_flush_to(stdout, r); }
 
 void report_hold_notes(void) { notes_hold(); }
 

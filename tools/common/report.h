@@ -30,8 +30,10 @@ FILE *report_words(void);
 void report_say(const char *format, ...) REPORT_PRINTF(1, 2);
 void report_take_stdout(void);
 
-/* report_flush: returns 1 if everything printed to stdout could be written, otherwise 0 with `r` set. */
+/* report_flush: returns 1 if everything printed to stdout could be written, otherwise 0 with `r` set. report_flush_to:
+ * the same for a stream that takes the place of stdout. */
 int report_flush(report *r);
+int report_flush_to(FILE *out, report *r);
 
 /* report_fail_system: like report_fail, if no file is at fault but memory or open files ran out. A report_fail about
  * memory counts as such. report_is_system: whether this is the kind. */
