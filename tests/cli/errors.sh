@@ -120,6 +120,20 @@ for verb in "render cut.obj $few -o cut.png.pfm" "bake cut.obj --elements 64 -o 
     check "$verb prints no note about the texture" grep -q "textures left out" err.txt
 done
 
+# --- a wrong value of an option is bad usage, also if only the file shows it ---
+
+moving
+for scene in 4 night; do
+    status 2 render moving.gltf --scene $scene $few -o x.png
+    said "moving.gltf: no scene \`$scene\`; it has"
+    status 2 info moving.gltf --scene $scene
+done
+status 2 render moving.gltf --camera nope $few -o x.png
+status 2 relief foo
+said "there is no \`relief foo\`: give bake or render"
+status 2 relief
+said "give bake or render"
+
 # --- standard input under each of its names ---
 
 "$TOOL" render tent.obj $few -q -o tent.pfm

@@ -98,7 +98,7 @@ static int find_scene(uint32_t *out, gltf *g, const gltf_list *scenes)
     }
     number = strtoul(wanted, &end, 10);
     if (*wanted < '0' || *wanted > '9' || *end != '\0' || number >= scenes->count)
-        return report_fail(g->b->r, "%s: no scene `%.60s`; it has %u, numbered from 0", g->b->path, wanted,
+        return report_fail_usage(g->b->r, "%s: no scene `%.60s`; it has %u, numbered from 0", g->b->path, wanted,
                            (unsigned)scenes->count);
     *out = (uint32_t)number;
     return 1;

@@ -149,7 +149,7 @@ static int open_relief(work *w, const char *path, report *r)
     const int fits = checksum_fits(w->file.data, w->file.size, LMB_RELIEF_HEADER_WORDS);
     lmb_status status = lmb_relief_swap(w->file.data, w->file.size);
     if (status == LMB_OK && !fits) {
-        return report_fail(r, "%s: a damaged .lmr file; copy it anew, or bake it anew", path);
+        return report_fail(r, "%s: a damaged .lmr file; copy it or bake it again", path);
     }
     if (status == LMB_OK) {
         status = lmb_relief_open(&w->relief, w->file.data, w->file.size);
@@ -304,10 +304,14 @@ int verb_relief(int argc, char **argv)
         report_fail(&r, "there is no `relief %s`; did you mean relief %s?", argv[1], meant);
         return report_end(&r, "relief", 2);
     }
+    if (argc >= 2 && argv[1][0] != '-') {
+        report_fail(&r, "there is no `relief %s`: give bake or render; lambent relief --help describes both", argv[1]);
+        return report_end(&r, "relief", 2);
+    }
     const int asked = options_parse(NULL, &both_table, argc, argv, &r);
     if (asked != OPTIONS_RUN) {
         return options_answer(asked, &both_table, &r);
     }
-    report_fail(&r, "bake or render? lambent relief --help tells");
+    report_fail(&r, "give bake or render; lambent relief --help describes both");
     return report_end(&r, "relief", 2);
 }
