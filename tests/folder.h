@@ -49,7 +49,7 @@ static inline const char *folder_file(folder *f, const char *name)
     return f->files[i];
 }
 
-/* Write a file, or write it anew; its path. */
+/* Write a file, or write over it; its path. */
 static inline const char *folder_put(folder *f, const char *name, const void *data, size_t size)
 {
     const char *path = folder_file(f, name);

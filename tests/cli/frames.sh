@@ -203,7 +203,7 @@ leaves_out 4 mix --frames frames/odd.txt $tent -o frames/odd_%02d.pfm
 for i in 0 1 2; do check "odd frames change frame $i of the others by no byte" cmp "frames/odd_0$((i * (i + 3) / 2 + (i == 2))).pfm" "frames/g_0$i.pfm"; done
 printf 'f0\nx0\nx0\n' >frames/nan.txt
 status 0 mix --frames frames/nan.txt $tent -o frames/nan_%02d.pfm
-for i in 1 2; do check "what is not measured anew stays: $i" cmp frames/o_00.pfm "frames/nan_0$i.pfm"; done
+for i in 1 2; do check "what is not measured again stays: $i" cmp frames/o_00.pfm "frames/nan_0$i.pfm"; done
 printf 'x0\nf0\n' >frames/blind.txt
 leaves_out 1 mix --frames frames/blind.txt $tent -o frames/blind_%02d.pfm
 said "frame 0 is left out: "

@@ -75,7 +75,7 @@ static float noise_of(const lmb_tile *tile, uint64_t pixels, lmb_vec3 at)
     return lmb_tile_noise(tile, pixels) + lmb_place_noise(at, 0.0f);
 }
 
-static uint64_t occluded_anew(const lmb_bvh *b, const lmb_tile *tile, uint64_t pixels, lmb_vec3 at)
+static uint64_t occluded_fresh(const lmb_bvh *b, const lmb_tile *tile, uint64_t pixels, lmb_vec3 at)
 {
     lmb_traversal traversal;
     memset(&traversal, 0, sizeof traversal);
@@ -112,7 +112,7 @@ static void every_triangle(void)
             const float half = round % 2 ? 0.01f : 0.7f;
             fill_tile(&tile, random_point(&r, 1.0f), half, &r);
             const uint64_t asked = round % 3 == 0 ? ~UINT64_C(0) : (uint64_t)test_random(&r) << 21;
-            const uint64_t got = occluded_anew(&b, &tile, asked, at);
+            const uint64_t got = occluded_fresh(&b, &tile, asked, at);
             CHECK((got & ~asked) == 0);
             CHECK(lmb_occluded_again(picked_kernels(), &again, own, &b, &tile, asked, at, noise_of(&tile, asked, at)) ==
                   got);
@@ -134,7 +134,7 @@ static void every_triangle(void)
     CHECK_MSG(occluded > 2000 && open > 2000, "%d blocked, %d open", occluded, open);
 }
 
-static uint64_t occluded_sun_anew(const lmb_bvh *b, const lmb_tile *tile, uint64_t pixels, lmb_vec3 to)
+static uint64_t occluded_sun_fresh(const lmb_bvh *b, const lmb_tile *tile, uint64_t pixels, lmb_vec3 to)
 {
     lmb_traversal traversal;
     memset(&traversal, 0, sizeof traversal);
@@ -153,7 +153,7 @@ static void every_triangle_of_suns(void)
             const lmb_vec3 any = random_point(&r, 1.0f), to = round % 7 == 0 ? Y : mul3(any, 1.0f / length3(any));
             fill_tile(&tile, random_point(&r, 1.0f), round % 2 ? 0.01f : 0.7f, &r);
             const uint64_t asked = round % 3 == 0 ? ~UINT64_C(0) : (uint64_t)test_random(&r) << 21;
-            const uint64_t got = occluded_sun_anew(&b, &tile, asked, to);
+            const uint64_t got = occluded_sun_fresh(&b, &tile, asked, to);
             CHECK((got & ~asked) == 0);
             for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
                 const lmb_vec3 from = plane_vec(tile.position, k), end = add3(from, mul3(to, 1000.0f));
@@ -187,7 +187,7 @@ static void no_gap_no_acne(void)
     for (int round = 0; round < 400; ++round) {
         const lmb_vec3 out = normalize3(random_point(&r, 1.0f));
         fill_tile(&tile, vec3(0.3f, 0.1f, -0.2f), 0.3f, &r);
-        leaks |= ~occluded_anew(&b, &tile, ~UINT64_C(0), mul3(out, 4.0f));
+        leaks |= ~occluded_fresh(&b, &tile, ~UINT64_C(0), mul3(out, 4.0f));
         float(*t)[3] = world.corners[test_random(&r) % world.count];
         const lmb_vec3 a = vec3(t[0][0], t[0][1], t[0][2]), u = sub3(vec3(t[1][0], t[1][1], t[1][2]), a),
                        v = sub3(vec3(t[2][0], t[2][1], t[2][2]), a);
@@ -196,7 +196,7 @@ static void no_gap_no_acne(void)
             const float s = (float)(k % 8) / 7.0f, q = (float)(k / 8) / 7.0f * (1.0f - s);
             set_plane(tile.position, k, add3(a, add3(mul3(u, s), mul3(v, q))));
         }
-        acne |= occluded_anew(&b, &tile, ~UINT64_C(0), add3(a, mul3(n, 3.0f)));
+        acne |= occluded_fresh(&b, &tile, ~UINT64_C(0), add3(a, mul3(n, 3.0f)));
     }
     CHECK(leaks == 0);
     CHECK(acne == 0);
@@ -215,17 +215,17 @@ static void capacities(void)
     CHECK(lmb_bvh_init(&b, 8, memory, lmb_bvh_bytes(8)) == LMB_OK);
     CHECK(lmb_bvh_build(&b, &world.scene) == LMB_OK && b.node_count == 0);
     fill_tile(&tile, vec3(0, 0, 0), 0.1f, &r);
-    CHECK(occluded_anew(&b, &tile, ~UINT64_C(0), vec3(0, 1, 0)) == 0);
+    CHECK(occluded_fresh(&b, &tile, ~UINT64_C(0), vec3(0, 1, 0)) == 0);
     for (int i = 0; i < 9; ++i) {
         world_triangle(vec3(-1, 0.5f, -1), vec3(2, 0.5f, -1), vec3(-1, 0.5f, 2));
     }
     world.first = 0;
     CHECK(world_end() == LMB_OK);
     CHECK(lmb_bvh_build(&b, &world.scene) == LMB_ERR_CAPACITY);
-    CHECK(occluded_anew(&b, &tile, ~UINT64_C(0), vec3(0, 1, 0)) == 0);
+    CHECK(occluded_fresh(&b, &tile, ~UINT64_C(0), vec3(0, 1, 0)) == 0);
     CHECK(lmb_bvh_init(&b, 9, memory, lmb_bvh_bytes(9)) == LMB_OK);
     CHECK(lmb_bvh_build(&b, &world.scene) == LMB_OK && b.triangle_count == 9 && b.node_count >= 1);
-    CHECK(occluded_anew(&b, &tile, 5, vec3(0, 1, 0)) == 5);
+    CHECK(occluded_fresh(&b, &tile, 5, vec3(0, 1, 0)) == 5);
     CHECK(lmb_occluded_tile(picked_kernels(), &traversal, NULL, &tile, 5, vec3(0, 1, 0), 0.0f) == 0);
     CHECK(lmb_occluded_tile(NULL, &traversal, &b, &tile, 5, vec3(0, 1, 0), 0.0f) == 0);
     CHECK(lmb_occluded_tile(picked_kernels(), &traversal, &b, NULL, 5, vec3(0, 1, 0), 0.0f) == 0);
@@ -268,8 +268,8 @@ static void few_nodes(void)
         lmb_tile tile;
         const lmb_vec3 at = random_point(&r, 1.5f);
         fill_tile(&tile, random_point(&r, 1.0f), round % 2 ? 0.01f : 0.7f, &r);
-        const uint64_t got = occluded_anew(&b, &tile, ~UINT64_C(0), at);
-        wrong += got != occluded_anew(&all, &tile, ~UINT64_C(0), at);
+        const uint64_t got = occluded_fresh(&b, &tile, ~UINT64_C(0), at);
+        wrong += got != occluded_fresh(&all, &tile, ~UINT64_C(0), at);
         traversal.first = (uint32_t)round * 13 % (b.triangle_count + 1);
         other += got != lmb_occluded_tile(picked_kernels(), &traversal, &b, &tile, ~UINT64_C(0), at,
                                           noise_of(&tile, ~UINT64_C(0), at));
@@ -300,10 +300,10 @@ static void holes(void)
                   vec3(0.5f * ((float)(k % 8) - 3.5f) / 4.0f, 0, 0.9f * ((float)(k / 8) - 3.5f) / 4.0f));
     }
     /* From above, points of the plane are over the pixels; u increases with z. */
-    const uint64_t occluded = occluded_anew(&b, &tile, ~UINT64_C(0), vec3(0, 1000, 0));
+    const uint64_t occluded = occluded_fresh(&b, &tile, ~UINT64_C(0), vec3(0, 1000, 0));
     CHECK_MSG(occluded == UINT64_C(0xffffffff), "%08x%08x", (unsigned)(occluded >> 32), (unsigned)occluded);
-    CHECK(occluded_sun_anew(&b, &tile, ~UINT64_C(0), Y) == occluded);
-    CHECK(occluded_sun_anew(&b, &tile, ~UINT64_C(0), mul3(Y, -1)) == 0);
+    CHECK(occluded_sun_fresh(&b, &tile, ~UINT64_C(0), Y) == occluded);
+    CHECK(occluded_sun_fresh(&b, &tile, ~UINT64_C(0), mul3(Y, -1)) == 0);
 }
 
 /* Fully transparent triangles are left out, whether by the texture, the visible part of it, or their vertex alpha. */
@@ -504,7 +504,7 @@ static int is_under(int axis, float away, float depth, float below)
     memset(&tile, 0, sizeof tile);
     set_plane(tile.position, 5, sub3(at, mul3(up, below)));
     tile.depth[5] = depth;
-    return occluded_sun_anew(&b, &tile, 1u << 5, up) != 0;
+    return occluded_sun_fresh(&b, &tile, 1u << 5, up) != 0;
 }
 
 /* A surface does not shadow a pixel that rounding put below it: up to 2^-22 of the largest coordinate plus 2^-20 of the

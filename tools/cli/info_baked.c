@@ -79,7 +79,7 @@ static int relief_info(FILE *out, const char *path, const file_bytes *file, int 
     const int fits = checksum_fits(file->data, file->size, LMB_RELIEF_HEADER_WORDS);
     if (lmb_relief_swap(file->data, file->size) != LMB_OK || lmb_relief_open(&f, file->data, file->size) != LMB_OK ||
         !fits) {
-        return report_fail(r, "%s: a damaged relief, or not of version 1; bake it anew", path);
+        return report_fail(r, "%s: a damaged relief, or not of version 1; bake it again", path);
     }
     if (out == NULL) {
         return 1;

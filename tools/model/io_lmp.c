@@ -14,7 +14,7 @@ int lmp_refuse(const char *path, const uint8_t *data, size_t size, report *r)
     const uint8_t *order = (const uint8_t *)&own;
     uint32_t bytes;
     if (data[3] != LMB_PACK_VERSION) {
-        return report_fail(r, "%s: a packed scene of version %d, and this reads version %d; pack it anew", path,
+        return report_fail(r, "%s: a packed scene of version %d, and this reads version %d; pack it again", path,
                            data[3], LMB_PACK_VERSION);
     }
     if (size >= 8 && data[4] == order[3] && data[5] == order[2] && data[6] == order[1] && data[7] == order[0]) {
@@ -25,11 +25,11 @@ int lmp_refuse(const char *path, const uint8_t *data, size_t size, report *r)
     if (size >= 12) {
         memcpy(&bytes, data + 8, sizeof bytes);
         if (bytes > size) {
-            return report_fail(r, "%s: a packed scene of %u bytes, of which %zu are there; copy it anew", path,
+            return report_fail(r, "%s: a packed scene of %u bytes, of which %zu are there; copy it again", path,
                                (unsigned)bytes, size);
         }
     }
-    return report_fail(r, "%s: a damaged packed scene; pack it anew", path);
+    return report_fail(r, "%s: a damaged packed scene; pack it again", path);
 }
 
 /* --- cameras ------------------------------------------------------------------------------------------------------ */
@@ -159,7 +159,7 @@ static int take_scene(model_build *b, const lmb_pack *p)
     }
     status = lmb_pack_scene(s, p, memory, bytes + 1);
     if (status != LMB_OK) {
-        return report_fail(b->r, "%s: the packed scene is not valid (%s); pack it anew", b->path,
+        return report_fail(b->r, "%s: the packed scene is not valid (%s); pack it again", b->path,
                            lmb_status_name(status));
     }
     b->meshes = (lmb_mesh *)(uintptr_t)s->meshes;

@@ -13,7 +13,7 @@ static int refuse(const uint8_t *head, size_t size, const char *path, report *r)
         return report_fail(r, "%s: no light transfer, or a damaged one; `lambent bake` makes them", path);
     }
     if (head[3] != LMB_TRANSFER_VERSION) {
-        return report_fail(r, "%s: a light transfer of version %d, and this reads version %d; bake it anew", path,
+        return report_fail(r, "%s: a light transfer of version %d, and this reads version %d; bake it again", path,
                            head[3], LMB_TRANSFER_VERSION);
     }
     const uint32_t order = (uint32_t)head[4] << 24 | (uint32_t)head[5] << 16 | (uint32_t)head[6] << 8 | head[7];
@@ -22,7 +22,7 @@ static int refuse(const uint8_t *head, size_t size, const char *path, report *r)
         return report_fail(r, "%s: baked for %s-endian machines, unlike this one; `lambent bake --endian %s`", path,
                            order == own ? "big" : "little", order == own ? "little" : "big");
     }
-    return report_fail(r, "%s: a damaged light transfer; bake it anew", path);
+    return report_fail(r, "%s: a damaged light transfer; bake it again", path);
 }
 
 int lmt_open(lmb_transfer *out, const file_bytes *file, const char *path, report *r)

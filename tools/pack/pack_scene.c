@@ -225,5 +225,5 @@ int pack_take(pack *out, const lmb_pack *from, const char *path, report *r)
         }
     }
     return (ok && is_whole(out, r)) ||
-           report_fail(r, "%s: a packed scene whose parts lie in one another; pack its source anew", path);
+           report_fail(r, "%s: a packed scene whose parts lie in one another; pack its source again", path);
 }

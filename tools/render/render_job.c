@@ -78,7 +78,7 @@ static int load_transfer(render_job *j, report *r)
         return 0;
     }
     return lmb_transfer_fits(&j->transfer, &j->scene) == LMB_OK ||
-           report_fail(r, "%s: baked from another scene than %s; bake it anew", j->o.transfer, j->o.scene);
+           report_fail(r, "%s: baked from another scene than %s; bake it again", j->o.transfer, j->o.scene);
 }
 
 /* Returns whether light by direction was baked; all leaves of a triangle are alike. */
@@ -124,7 +124,7 @@ int render_job_load(render_job *j, report *r)
     if (left_out > 0) {
         report_note(j->o.view.is_quiet,
                     "%s: keeps no directions for %u triangles with a normal map or a lobe, which bounced light leaves "
-                    "out; bake it anew%s",
+                    "out; bake it again%s",
                     j->o.transfer, (unsigned)left_out, j->o.glossy ? " with --glossy" : "");
     }
     if (j->o.transfer != NULL && j->o.glossy && j->transfer.count[LMB_TRANSFER_MOVING] > 0) {
