@@ -90,6 +90,11 @@ check "--quality draft has 1024 elements" grep -q "^elements  *1024$" out.txt
 status 0 bake box.obj --quality draft --elements 256 --receivers 200 -o own.lmt
 check "--elements and --receivers count before --quality" cmp own.lmt box-1.lmt
 status 2 bake box.obj --quality good -o bad.lmt
+printf 'v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 3 2\n' >lone.obj
+for form in vertex-colours:glb lightmap:glb probes:json; do
+    status 0 bake lone.obj --elements 64 --light sun:0,0,0:0,-1,0:2,2,2 --to ${form%:*} -o lone.${form#*:}
+    check "bake --to ${form%:*} reports that no light bounces" grep -q "without light: no light bounces onto" out.txt
+done
 for elements in 32 128 1000 512 65536; do
     status 2 bake box.obj -o bad.lmt --elements $elements
 done

@@ -109,6 +109,8 @@ status 0 render demo --size 32x24 --shadow-map 64 -q -o hushed.png
 check "-q says nothing" empty out.txt err.txt
 status 0 render demo --size 32x24 --shadow-map 64 -v -o told.png
 check "-v says how long what took" grep -q '^lambent: bands .* ms$' err.txt
+"$TOOL" render demo --size 32x24 --shadow-map 64 -v -o - >told.ppm 2>err.txt
+check "-v -o - prints each time once" test "$(grep -c 'bands .* ms$' err.txt)" = 1
 check "what is said changes no byte" sh -c 'cmp "$1" "$2" && cmp "$1" "$3"' sh loud.png hushed.png told.png
 # Bad usage.
 status 2

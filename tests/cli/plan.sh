@@ -66,9 +66,11 @@ absent plan.png
 # The settings chosen for a budget are printed as options that draw the same picture.
 status 0 render demo --size 240x180 --threads 1 --exposure 0 --budget error=0.2 -o budget.pfm
 check "an easy budget is met" grep -q "^lambent: the budget is met" err.txt
+cp err.txt budget.txt
 chosen=$(sed -n 's/^lambent: chosen: \(.*\): error about.*/\1/p' err.txt)
 status 0 render demo --size 240x180 --threads 1 --exposure 0 $chosen -o chosen.pfm
 check "the chosen settings draw the same: $chosen" cmp -s budget.pfm chosen.pfm
+check "memory beside the budget is printed" grep -q "^lambent: chosen: .* KiB, and [1-9][0-9]* KiB of state and scratch of threads$" budget.txt
 status 2 lambent-bench --calibrate demo
 
 finish

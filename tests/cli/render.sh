@@ -8,9 +8,11 @@ status 2 render demo $small --glossy -o glossy.png
 for extension in png ppm pfm hdr; do
     status 0 render demo $small -o "demo.$extension"
 done
+# begins FILE OCTAL: checks the first four bytes.
+begins() { check "$1 begins with $2" test "$(head -c 4 "$1" | od -An -to1 | tr -d ' \n')" = "$2"; }
 begins demo.png 211120116107
-begins demo.ppm 120066012066
-begins demo.pfm 120106012066
+begins demo.ppm 120066012063
+begins demo.pfm 120106012063
 begins demo.hdr 043077122101
 check "demo.ppm is 32x24" test "$(wc -c <demo.ppm)" -eq $((32 * 24 * 3 + 13))
 check "demo.pfm is 32x24" test "$(sed -n 2p demo.pfm)" = "32 24"
@@ -126,6 +128,20 @@ check "edges are white, all else is black" test \
     "1000 1255255255"
 status 2 render demo $small --wireframe --samples 4 -o bad.png
 check "edges have no samples" grep -q "wireframe takes one sample" err.txt
+
+# A view of nothing is noted.
+box
+away="--eye 0,0,9 --target 0,0,20"
+for show in full direct depth; do
+    status 0 render box.obj $few --light sun:0,0,0:0,-1,0:2,2,2 --show $show $away -o away.pfm
+    said "note: no surface is in the picture; --eye and --target set the view"
+    status 0 render box.obj $few --light sun:0,0,0:0,-1,0:2,2,2 --show $show -o there.pfm
+    check "a view of the box has no such note" lacks "no surface" err.txt
+done
+status 0 render box.obj $few --eye 0,0,9 --target 0,9,20 -o away.pfm
+said "note: no surface is in the picture"
+status 0 render box.obj $few --show light-distance $away --light sun:0,0,0:0,-1,0:2,2,2 -o away.pfm
+check "a map has no such note" lacks "no surface" err.txt
 
 check "nothing is left behind" none bad* nowhere* *tmp*
 

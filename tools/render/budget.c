@@ -2,6 +2,7 @@
 #include "budget.h"
 
 #include <stdio.h>
+#include <math.h>
 #include <string.h>
 
 #include "bench_calibrate.h"
@@ -45,7 +46,8 @@ void budget_words(char *out, size_t size, const budget_choice *c)
     }
 }
 
-static void tell(const budget_choice *c, int is_quiet)
+/* `all`: bytes of the whole job. */
+static void tell(const budget_choice *c, size_t all, int is_quiet)
 {
     const lmb_settings *s = &c->chosen.settings;
     char words[200], error[32] = "not checked";
@@ -56,10 +58,10 @@ static void tell(const budget_choice *c, int is_quiet)
     report_note(
         is_quiet,
         "chosen: --shadow-map %d --tree %d --error %.3g --visibility %.3g --gather full --occlusion %s: error %s, %.3g "
-        "units of work, %.0f KiB",
+        "units of work, %.0f KiB, and %.0f KiB of state and scratch of threads",
         (int)s->shadow_map, (int)s->tree, (double)s->error, (double)s->visibility,
         s->occlusion == LMB_OCCLUSION_EXACT ? "exact" : "none", error, c->chosen.work,
-        (double)c->chosen.bytes / 1024.0);
+        (double)c->chosen.bytes / 1024.0, fmax((double)all - (double)c->chosen.bytes, 0.0) / 1024.0);
     report_note(is_quiet, "looked at %.3g units of work, %.0f %% of the picture's", c->look.work,
                 100.0 * c->look.work / c->chosen.work);
     report_note(is_quiet, "%s", words);
@@ -109,6 +111,6 @@ int budget_fit(budget_choice *out, render_job *j, report *r)
     lmb_plan_cost(&c, &out->facts, out->chosen.rung, fixed);
     out->facts.pairs = c.op[LMB_OP_PAIRS];
     out->facts.segments = c.op[LMB_OP_SEGMENTS];
-    tell(out, j->o.view.is_quiet);
+    tell(out, j->bytes + j->many_lights.bytes, j->o.view.is_quiet);
     return 1;
 }

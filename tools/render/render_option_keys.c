@@ -134,7 +134,8 @@ const option_row render_budget_rows[] = {
      .help = HELP("the same in units (one pixel lit by one node), for the same choice on every machine")},
     {.name = "--budget bytes", .value = "N[KiB|MiB]", .kind = OPTION_OWN, AT(budget.bytes), .parse = parse_budget_bytes,
      .expects = "a number of bytes, or of KiB or MiB: 100KiB",
-     .help = HELP("limit of maps, trees, view, picture and one thread's scratch")},
+     .help = HELP("limit of maps, trees, view, picture and one thread's scratch; the state and the scratch of further "
+                  "threads, which do not change the choice, are printed beside it")},
     {.name = "--budget rate", .value = "UNITS", .kind = OPTION_NUMBER, AT(rate), .low = 1, .high = 1e15,
      .help = HELP("units of work per second, instead of measuring them")},
     {.kind = OPTION_END},

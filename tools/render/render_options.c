@@ -262,7 +262,8 @@ const option_row render_other_rows[] = {
     OPTION_THREADS_ROW(render_options, threads, "draw the picture"),
 #if !defined(OPTIONS_WITHOUT_HELP) /* the web page writes no files */
     {.name = "--stats", .value = "FILE.json", .kind = OPTION_TEXT, AT(stats), .file = OPTION_WRITES,
-     .help = HELP("time per stage, counts, bytes")},
+     .help = HELP("time per stage, counts; bytes: memory for drawing; model_bytes: the model; loading_bytes: both the "
+                  "model and what reading it needs")},
 #endif
     OPTION_ONLY_HERE,
     OPTION_LOUDNESS(render_options, view.is_quiet, view.is_verbose,
@@ -273,7 +274,9 @@ const option_row render_other_rows[] = {
 
 static const option_row json_rows[] = {
     {.kind = OPTION_TITLE, .help = HELP("plan")},
-    {.name = "--json", .kind = OPTION_FLAG, AT(json), .help = HELP("print everything as JSON")},
+    {.name = "--json", .kind = OPTION_FLAG, AT(json),
+     .help = HELP("print everything as JSON; bytes: of the stages; memory: also the state, and the scratch of "
+                  "further threads")},
     {.kind = OPTION_END},
 };
 

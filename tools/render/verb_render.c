@@ -148,7 +148,7 @@ static void tell_demo(const render_job *j)
         report_say(", %u groups", (unsigned)j->stats.groups);
     }
     report_say("\n");
-    for (int i = 0; i < LMB_STAGE_DONE; ++i) {
+    for (int i = 0; i < LMB_STAGE_DONE && !j->o.view.is_verbose; ++i) { /* --verbose has printed them */
         report_say("  %-13s %8.1f ms\n", stage_name(j, i), j->workers.stage_s[i] * 1e3);
     }
     report_say("  %.1f %% of the light in the picture is indirect\n", j->indirect_share * 100.0);
@@ -235,6 +235,25 @@ static void tell_layers(const render_job *j)
                 "farthest are left out", (unsigned)over, (int)BLENDED_MAX_LAYERS);
 }
 
+/* Prints a note if the last view shows no surface: the picture is only background. */
+static void tell_nothing(const render_job *j)
+{
+    const lmb_surface *eye = &j->frame.eye.depth;
+    const size_t n = (size_t)eye->width * (size_t)eye->height;
+    const int shows_view = j->o.show <= LMB_SHOW_IRRADIANCE || j->o.show == SHOW_DEPTH || j->o.show == SHOW_ALBEDO ||
+                           j->o.show == SHOW_NORMAL || j->o.show == SHOW_EYE_DISTANCE;
+    if (j->o.view.is_quiet || !shows_view || j->o.slice.count > 0 || j->o.sorted) {
+        return;
+    }
+    float *depth = malloc(n * sizeof *depth);
+    int any = depth == NULL || lmb_depth_linearize(depth, n * sizeof *depth, eye) != LMB_OK;
+    for (size_t i = 0; i < n && !any; ++i) {
+        any = depth[i] > 0.0f;
+    }
+    free(depth);
+    report_note(any, "note: no surface is in the picture; --eye and --target set the view");
+}
+
 static int run(render_job *j, report *r)
 {
     double start = host_seconds();
@@ -257,6 +276,7 @@ static int run(render_job *j, report *r)
     tell_regroups(j);
     tell_full_cuts(j);
     tell_layers(j);
+    tell_nothing(j);
     render_tell_coarse(j->o.view.is_quiet, &j->stats);
     render_tell_dropped(j->o.view.is_quiet, &j->scene, &j->stats);
     const int demo = strcmp(j->o.scene, "demo") == 0 && j->o.show == LMB_SHOW_FULL && !j->o.view.is_quiet &&
