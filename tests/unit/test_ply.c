@@ -12,10 +12,28 @@ void test_ply(void);
 enum { PATH_SIZE = 512, FILE_MAX = 4096 };
 
 
+static int with_cr; /* 1: load puts CR for LF in the header, and in the whole text file */
+
+static int load_cr(const uint8_t *data, size_t size)
+{
+    uint8_t *copy = malloc(size);
+    int in_header = 1, ok = 0;
+    const int is_text = size > 16 && memcmp(data, "ply\nformat ascii", 16) == 0;
+    for (size_t i = 0; copy != NULL && i < size; ++i) {
+        copy[i] = data[i] == '\n' && in_header ? '\r' : data[i];
+        in_header = is_text || (in_header && (i < 10 || memcmp(data + i - 10, "end_header\n", 11) != 0));
+    }
+    if (copy != NULL)
+        ok = model_read(&loaded, "a", NULL, copy, size, &notes, &problem);
+    free(copy);
+    return ok;
+}
+
 static int load(const void *data, size_t size)
 {
     forget();
-    return model_read(&loaded, "a", NULL, (const uint8_t *)data, size, &notes, &problem);
+    return with_cr ? load_cr((const uint8_t *)data, size)
+                   : model_read(&loaded, "a", NULL, (const uint8_t *)data, size, &notes, &problem);
 }
 
 static int load_text(const char *text) { return load(text, strlen(text)); }
@@ -808,6 +826,9 @@ void test_ply(void)
     scan_colours();
     dark_colours();
     strips();
+    with_cr = 1;
+    strips();
+    with_cr = 0;
     face_colours();
     wide_codes();
     textures();

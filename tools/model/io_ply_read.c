@@ -76,15 +76,17 @@ static int shown(slice s) { return s.size < 40 ? (int)s.size : 40; }
 
 /* --- header --- */
 
+/* CR is a blank before LF, and ends lines if the header has no LF. */
 static int is_blank(uint8_t c) { return c == ' ' || c == '\t' || c == '\r'; }
+static int ends_line(const ply *p, uint8_t c) { return c == '\n' || (p->has_cr_lines && c == '\r'); }
 
 /* Reads the next word of this line. Returns 0 at the end of the line. */
 static int next_word(slice *out, ply *p)
 {
-    while (p->at < p->end && is_blank(*p->at))
+    while (p->at < p->end && is_blank(*p->at) && !ends_line(p, *p->at))
         ++p->at;
     out->at = (const char *)p->at;
-    while (p->at < p->end && *p->at != '\n' && !is_blank(*p->at))
+    while (p->at < p->end && !ends_line(p, *p->at) && !is_blank(*p->at))
         ++p->at;
     out->size = (size_t)((const char *)p->at - out->at);
     return out->size > 0;
@@ -92,10 +94,11 @@ static int next_word(slice *out, ply *p)
 
 static int next_line(ply *p)
 {
-    const uint8_t *stop = p->at < p->end ? (const uint8_t *)memchr(p->at, '\n', (size_t)(p->end - p->at)) : NULL;
-    if (!stop)
+    while (p->at < p->end && !ends_line(p, *p->at))
+        ++p->at;
+    if (p->at == p->end)
         return ply_fail(p, "the file ends in its header; get the whole file");
-    p->at = stop + 1;
+    ++p->at;
     ++p->line;
     return 1;
 }
@@ -218,7 +221,7 @@ static int is_remark(slice word) { return slice_is(word, "comment") || slice_is(
 static void take_picture(ply *p, const slice *words)
 {
     slice name = {words[2].at, 0};
-    while ((const uint8_t *)name.at + name.size < p->end && name.at[name.size] != '\n')
+    while ((const uint8_t *)name.at + name.size < p->end && !ends_line(p, (uint8_t)name.at[name.size]))
         ++name.size;
     while (name.size > 0 && is_blank((uint8_t)name.at[name.size - 1]))
         --name.size;
@@ -442,7 +445,7 @@ static void skip_empty_lines(ply *p)
             p->at = begin;
             return;
         }
-        while (p->at < p->end && *p->at != '\n')
+        while (p->at < p->end && !ends_line(p, *p->at))
             ++p->at;
         p->line += p->at < p->end;
         p->at += p->at < p->end;
@@ -540,14 +543,24 @@ int ply_has(const element *e, int first, int last)
     return 1;
 }
 
-int ply_begins(const uint8_t *data, size_t size)
+/* Returns the first byte that is no blank after "ply", or `size`. */
+static size_t after_ply(const uint8_t *data, size_t size)
 {
     size_t at = 3;
-    if (size < 4 || memcmp(data, "ply", 3) != 0)
-        return 0;
     while (at < size && is_blank(data[at]))
         ++at;
-    return at < size && data[at] == '\n';
+    return at;
 }
 
-int ply_walk(ply *p) { return read_header(p) && traversal(p); }
+int ply_begins(const uint8_t *data, size_t size)
+{
+    const size_t at = size >= 4 && memcmp(data, "ply", 3) == 0 ? after_ply(data, size) : size;
+    return at < size && (data[at] == '\n' || memchr(data + 3, '\r', at - 3) != NULL);
+}
+
+int ply_walk(ply *p)
+{
+    const size_t size = (size_t)(p->end - p->begin), at = size > 3 ? after_ply(p->begin, size) : size;
+    p->has_cr_lines = at < size && p->begin[at] != '\n';
+    return read_header(p) && traversal(p);
+}

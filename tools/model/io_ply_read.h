@@ -61,6 +61,7 @@ typedef struct ply {
     model_build *b;
     const uint8_t *begin, *at, *end;
     uint32_t line; /* line number from 1; in the header and in text files */
+    int has_cr_lines; /* CR ends a line, as files of old Macs have it */
     int in_bytes;  /* after the header of a binary file: errors name byte offsets */
     encoding format;
     element elements[MAX_ELEMENTS];
