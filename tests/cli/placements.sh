@@ -127,6 +127,38 @@ status 0 mix $noisy --voxels 4 --shadow-map 64 --light none --match-grain -q -o 
 tail -c 6912 moved.ppm | od -An -v -tu1 -w1 | paste - grain.txt | awk '$1 != $2 { n += 1 } END { print n }' >found.txt
 check "another photo has other grain: $(cat found.txt)" test "$(cat found.txt)" -gt 300
 
+# Several --object of the command line: the bytes of a list with the same places; the labels have the PREFIX only.
+cp set/tent.obj set/other.obj
+list 'out/two.pfm tent.obj 7,12 30 0.4\nout/two.pfm other.obj 16,12 -20 0.2\n'
+status 0 mix $seen $sun --placements set/list.txt --labels lab/ -q
+two="--object set/tent.obj --at 7,12 --object set/other.obj --at 16,12"
+status 0 mix $seen $sun $two --scale 0.2 --turn 30 --scale 0.1 --turn -20 --labels two -q -o two.pfm
+check "several --object are drawn as by a list" cmp two.pfm set/out/two.pfm
+for file in mask.png depth.pfm normal.pfm object.png; do
+    check "several --object have labels: $file" cmp two.$file lab/out/two.$file
+done
+check "several --object have a pose each" test "$(grep -c '"object_to_camera"' two.pose.json)" -eq 3
+list 'out/two.pfm tent.obj 7,12 30 0.4\nout/two.pfm other.obj 16,12 30 0.4\n'
+status 0 mix $seen $sun --placements set/list.txt -q
+"$TOOL" mix $seen $sun $two --scale 0.2 --turn 30 -q -o pfm:- >same.pfm
+check "one --scale and --turn hold for all, to standard output" cmp same.pfm set/out/two.pfm
+status 2 mix $seen $two --object set/tent.obj -o x.png
+said "--object and --at: 3 and 2 of them; give each object its place"
+status 2 mix $seen --object set/tent.obj --at 8,12 --at 9,12 -o x.png
+status 2 mix $seen --object set/tent.obj --scale 1 --scale 2 -o x.png
+said "--object, --at, --scale and --turn: 1, 0, 2 and 0 of them"
+for extra in "--show delta" "--stats x.json" "--roughness 0.2" "--frames set/list.txt" "--placements set/list.txt"; do
+    status 2 mix $seen $two -o x.png $extra
+done
+status 2 mix $seen $two --object set/tent.obj --at 24,3 -o x.png
+said "--at 24,3: the photo has 24 x 24 pixels"
+status 2 mix $seen $two --object set/tent.obj --at world --fit -o x.png
+status 1 mix $seen $two --object nowhere.obj --at 8,12 -o x.png
+status 1 mix $seen $two -o set/tent.obj/x.png
+many=; for i in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17; do many="$many --object set/tent.obj --at 8,12"; done
+status 2 mix $seen $many -o x.png
+absent x.png
+
 # A label never replaces the picture.
 status 1 mix $seen $sun --object set/tent.obj --at 8,12 --voxels 4 --labels lone -q -o lone.mask.png
 said "--labels would write lone.mask.png a second time"

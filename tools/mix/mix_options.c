@@ -18,9 +18,9 @@ static int all_floats(const char *text, float *out, int count)
 
 static int parse_at(const char *text, void *at)
 {
-    mix_options *o = at;
+    mix_at *o = at;
     o->at = strcmp(text, "world") == 0 ? MIX_AT_WORLD : MIX_AT_PIXEL;
-    return o->at == MIX_AT_WORLD || all_floats(text, o->at_px, 2);
+    return o->at == MIX_AT_WORLD || all_floats(text, o->px, 2);
 }
 
 static int parse_up(const char *text, void *at)
@@ -56,6 +56,9 @@ static const int32_t on_values[] = {MIX_ON_FLOOR, MIX_ON_TABLE, MIX_ON_WALL};
 static const char *const shows[] = {"final", "delta", "planes", "voxels", "env", "object", NULL};
 
 #define AT(member) .at = offsetof(mix_options, member)
+#define EACH(member, number)                                                                                \
+    AT(member), .counts = offsetof(mix_options, number), .times = MIX_OBJECTS,                              \
+    .size = sizeof *((mix_options *)0)->member
 
 static const option_row photo_rows[] = {
     {.kind = OPTION_TITLE, .help = HELP("photo")},
@@ -93,14 +96,17 @@ static const option_row photo_rows[] = {
 
 static const option_row object_rows[] = {
     {.kind = OPTION_TITLE, .help = HELP("object")},
-    {.name = "--object", .value = "MESH", .kind = OPTION_TEXT, AT(object), .file = OPTION_READS,
-     .help = HELP(".gltf .glb .obj .ply, +Y up; without it the photo is written unchanged")},
+    {.name = "--object", .value = "MESH", .kind = OPTION_TEXT, EACH(object_of, objects), .file = OPTION_READS,
+     .help = HELP(".gltf .glb .obj .ply, +Y up; without it the photo is written unchanged. If you give several, give "
+             "one --at each, in the same order, and one --scale and --turn for all or one each; light is then "
+             "simpler, as for --placements")},
     OPTION_VERTEX_COLOURS_ROW(mix_options, choice.vertex_colours),
-    {.name = "--scale", .value = "M", .kind = OPTION_NUMBER, AT(scale), .low = 1e-6, .high = 1e6,
+    {.name = "--scale", .value = "M", .kind = OPTION_NUMBER, EACH(scale_of, scales), .low = 1e-6, .high = 1e6,
      .help = HELP("metres per unit of the mesh (default 1: the mesh is in metres)")},
     {.name = "--fit", .kind = OPTION_FLAG, AT(fit),
      .help = HELP("chooses --scale: a sixth of the plane's side in all, less if the picture has no room for that")},
-    {.name = "--at", .value = "X,Y|world", .kind = OPTION_OWN, .parse = parse_at, .expects = "X,Y or world",
+    {.name = "--at", .value = "X,Y|world", .kind = OPTION_OWN, EACH(at_of, ats), .parse = parse_at,
+     .expects = "X,Y or world",
      .help = HELP("the object stands on the surface at this pixel, or hangs there if it is a wall (default: near "
              "the middle of the largest plane that faces up, with free space around); world: the object is where "
              "the mesh has it, in the world of the frame's camera_to_world")},
@@ -114,7 +120,7 @@ static const option_row object_rows[] = {
              "camera's (x right, y up, -z ahead); camera: up in the picture; pose: +Y of the world. Default: +Y or "
              "+Z of the world if a plane lies across it, or else the direction that the planes within 70 degrees of "
              "the picture's up agree on")},
-    {.name = "--turn", .value = "DEG", .kind = OPTION_NUMBER, AT(turn_deg), .low = -3600, .high = 3600,
+    {.name = "--turn", .value = "DEG", .kind = OPTION_NUMBER, EACH(turn_of, turns), .low = -3600, .high = 3600,
      .help = HELP("about the object's upright axis (default 0: +Z towards the viewer); on a wall, about the wall's "
              "normal")},
 #if !defined(OPTIONS_WITHOUT_HELP)
@@ -199,6 +205,7 @@ const option_table mix_table = {
     .verb = "mix",
     .usage = HELP("mix --frame PREFIX --object MESH -o OUT [options]\n"
              "mix --photo P --depth D --intrinsics FX,FY,CX,CY --object MESH -o OUT [options]\n"
+             "mix --frame PREFIX --object MESH --at X,Y --object MESH --at X,Y ... -o OUT\n"
              "mix --frames DIR|LIST --object MESH -o frame_%04d.png [options]\n"
              "mix --frame PREFIX --placements LIST [options]"),
     .about = HELP("Puts a virtual object into one photo with depth: finds the planes, stands the object on one, "
@@ -264,8 +271,36 @@ static int complete_photo(const mix_options *o, report *r)
                                  : o->out != NULL || report_fail(r, "no output given; add -o FILE.png");
 }
 
+/* Several objects need a place each; scale and turn are one for all, or one each. */
+static int complete_objects(const mix_options *o, report *r)
+{
+    const int32_t n = o->objects;
+#if defined(OPTIONS_WITHOUT_HELP) /* the web page has no placements */
+    if (n > 1) {
+        return report_fail(r, "--object: %d of them; give one", (int)n);
+    }
+#endif
+    if (n > 1 && o->ats != n) {
+        return report_fail(r, "--object and --at: %d and %d of them; give each object its place", (int)n, (int)o->ats);
+    }
+    if ((o->scales > 1 && o->scales != n) || (o->turns > 1 && o->turns != n) || (o->ats > 1 && n < 2)) {
+        return report_fail(r, "--object, --at, --scale and --turn: %d, %d, %d and %d of them; give one for all, or one "
+                              "each", (int)n, (int)o->ats, (int)o->scales, (int)o->turns);
+    }
+    for (int32_t i = 0; i < n && n > 1; ++i) {
+        if (o->at_of[i].at == MIX_AT_WORLD && (o->fit || o->scales > 0 || o->turns > 0)) {
+            return report_fail(r, "--at world has the mesh's own scale and turn; leave --scale, --fit and --turn out");
+        }
+    }
+    return n < 2 || (o->frames == NULL && o->stats == NULL && o->show == MIX_FINAL && !(o->specular > 0.0f)) ||
+           report_fail(r, "several --object: leave --frames, --stats, --show and --roughness out");
+}
+
 static int complete(const mix_options *o, report *r)
 {
+    if (!complete_objects(o, r)) {
+        return 0;
+    }
     if (o->frames == NULL && o->source.may_lack_depth) {
         return report_fail(r, "--missing-depth estimate needs earlier frames; add --frames");
     }
@@ -303,5 +338,10 @@ int mix_options_parse(mix_options *out, int argc, char **argv, report *r)
     out->exposure_ev = NAN;
     out->kernels = lmb_kernels_pick();
     const int asked = options_parse(out, &mix_table, argc, argv, r);
+    out->object = out->objects > 0 ? out->object_of[0] : NULL;
+    out->at = out->at_of[0].at;
+    memcpy(out->at_px, out->at_of[0].px, sizeof out->at_px);
+    out->scale = out->scale_of[0];
+    out->turn_deg = out->turn_of[0];
     return asked == OPTIONS_RUN && !complete(out, r) ? OPTIONS_BAD : asked;
 }

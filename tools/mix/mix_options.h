@@ -6,7 +6,7 @@
 #include "../model/model.h"
 #include "mix_frame.h"
 
-enum { MIX_LIGHTS = 8 };
+enum { MIX_LIGHTS = 8, MIX_OBJECTS = 16 /* in one picture */ };
 
 enum { MIX_FINAL = 0, MIX_DELTA, MIX_PLANES, MIX_VOXELS, MIX_ENV, MIX_OBJECT };
 
@@ -21,13 +21,22 @@ enum { MIX_UP_FOUND = 0, /* by the pose if planes agree with it, or by the plane
 /* The kind of plane under or behind it if no place is given. */
 enum { MIX_ON_ANY = 0, MIX_ON_FLOOR, MIX_ON_TABLE, MIX_ON_WALL };
 
+typedef struct mix_at {
+    int32_t at; /* MIX_AT_* */
+    float px[2];
+} mix_at;
+
 typedef struct mix_options {
     mix_source source;
     const char *frames; /* a list instead of `source`'s files */
     const char *placements; /* a list of pictures instead of `object` and `out` */
     int match_grain;
     const char *object, *world, *out, *stats, *labels;
-    model_choice choice; /* choices for the file of the object */
+    const char *object_of[MIX_OBJECTS]; /* by object; `object` and the members below hold those of the first */
+    mix_at at_of[MIX_OBJECTS];
+    float scale_of[MIX_OBJECTS], turn_of[MIX_OBJECTS];
+    int32_t objects, ats, scales, turns; /* numbers of these */
+    model_choice choice; /* choices for the files of the objects */
     float scale;      /* m per unit of the mesh; 0: 1, or chosen if `fit` */
     int fit;
     int32_t on;       /* MIX_ON_* */

@@ -24,11 +24,13 @@ typedef struct list_row {
     char *out, *mesh;
     int32_t line, thing, at, on; /* at, on: as in mix_options */
     float px[2], turn, size;     /* size: m; 0: the mesh's own, FIT_SIZE: chosen */
+    float scale;                 /* of the command line: m per unit of the mesh; 0: by `size` */
 } list_row;
 
 typedef struct placements {
     mix_job *j;
-    const char *path;
+    const char *path; /* "--object": the command line has the objects */
+    int is_line;      /* likewise */
     char *folder; /* of the list, "" or ending with a slash */
     list_row *row;
     int32_t count, cap;
@@ -46,7 +48,8 @@ typedef struct placements {
 
 static int fail_row(const placements *p, const list_row *row, report *r, const char *what)
 {
-    return report_fail(r, "%s: line %d: %s", p->path, (int)row->line, what);
+    return row->mesh != NULL && p->is_line ? report_fail(r, "--object %s: %s", row->mesh, what)
+                                           : report_fail(r, "%s: line %d: %s", p->path, (int)row->line, what);
 }
 
 /* --- words -------------------------------------------------------------------------------------------------------- */
@@ -250,6 +253,39 @@ static int read_list(placements *p, report *r)
     return ok && (p->count > 0 || report_fail(r, "%s: no placement in it", p->path));
 }
 
+/* The objects of the command line, in one picture. */
+static int take_line(placements *p, report *r)
+{
+    const mix_options *o = &p->j->o;
+    const lmb_pinhole *c = &p->j->frame.camera;
+    p->folder = calloc(1, 1);
+    p->row = calloc((size_t)o->objects, sizeof *p->row);
+    if (p->folder == NULL || p->row == NULL) {
+        return report_fail(r, "%s: out of memory", p->path);
+    }
+    for (int32_t i = 0; i < o->objects; ++i) {
+        list_row *row = &p->row[p->count++];
+        const mix_at *at = &o->at_of[i];
+        row->thing = -1;
+        row->at = at->at;
+        memcpy(row->px, at->px, sizeof row->px);
+        row->turn = o->turn_of[o->turns > 1 ? i : 0];
+        row->size = o->fit ? FIT_SIZE : 0.0f;
+        row->scale = o->scale_of[o->scales > 1 ? i : 0];
+        row->out = joined("", o->out);
+        row->mesh = joined("", o->object_of[i]);
+        if (row->out == NULL || row->mesh == NULL) {
+            return report_fail(r, "%s: out of memory", p->path);
+        }
+        if (at->at == MIX_AT_PIXEL && !(at->px[0] >= 0.0f && at->px[1] >= 0.0f && at->px[0] < (float)c->width &&
+                                        at->px[1] < (float)c->height)) {
+            return report_fail_usage(r, "--at %g,%g: the photo has %d x %d pixels", (double)at->px[0],
+                                     (double)at->px[1], (int)c->width, (int)c->height);
+        }
+    }
+    return 1;
+}
+
 /* --- pictures ----------------------------------------------------------------------------------------------------- */
 
 static int by_name(const void *a, const void *b)
@@ -293,7 +329,7 @@ static int find_pictures(placements *p, report *r)
 static void label_name(char *out, size_t size, const placements *p, int32_t picture)
 {
     const char *name = p->row[p->first[picture]].out + strlen(p->folder), *dot = strrchr(name, '.');
-    snprintf(out, size, "%s%.*s", p->j->o.labels, (int)(dot - name), name);
+    snprintf(out, size, "%s%.*s", p->j->o.labels, p->is_line ? 0 : (int)(dot - name), name);
 }
 
 static const char *const endings[] = {".mask.png", ".depth.pfm", ".normal.pfm", ".object.png", ".pose.json"};
@@ -352,7 +388,7 @@ static int can_write(const placements *p, report *r)
     for (int32_t i = 0; ok && i < p->pictures; ++i) {
         char name[2 * NAME_MAX_BYTES], whole[2 * NAME_MAX_BYTES + 16];
         report own = {""};
-        ok = file_can_write(p->row[p->first[i]].out, &own);
+        ok = p->is_line || file_can_write(p->row[p->first[i]].out, &own); /* options_files has checked -o */
         if (ok && p->j->o.labels != NULL) {
             label_name(name, sizeof name, p, i);
             for (int k = 0; ok && k < 5; ++k) {
@@ -361,7 +397,7 @@ static int can_write(const placements *p, report *r)
             }
         }
         if (!ok) {
-            report_fail(r, "%s: line %d: %s", p->path, (int)p->row[p->first[i]].line, own.text);
+            fail_row(p, &p->row[p->first[i]], r, own.text);
         }
     }
     return ok;
@@ -374,9 +410,9 @@ static int load(mix_thing *t, const placements *p, const list_row *row, report *
     model_notes notes = {.count = 0};
     report own = {""};
     mix_job *j = p->j;
-    if (!file_is_below(row->mesh, p->folder, strlen(p->folder), &own) ||
+    if ((!p->is_line && !file_is_below(row->mesh, p->folder, strlen(p->folder), &own)) ||
         !model_load_as(&t->object, row->mesh, &j->o.choice, &notes, &own)) {
-        return report_fail(r, "%s: line %d: %s", p->path, (int)row->line, own.text);
+        return p->is_line ? report_fail(r, "%s", own.text) : fail_row(p, row, r, own.text);
     }
     model_tell(&notes, row->mesh, MODEL_NOTE_OPTION);
     t->path = row->mesh;
@@ -460,7 +496,7 @@ static int put(mix_spot *out, const placements *p, const list_row *row, mix_job 
     one->o.at_px[1] = row->px[1];
     one->o.turn_deg = row->turn;
     one->o.fit = row->size < 0.0f;
-    one->o.scale = row->size > 0.0f ? row->size / fmaxf(mix_extent_of(one).longest, 1e-20f) : 0.0f;
+    one->o.scale = row->size > 0.0f ? row->size / fmaxf(mix_extent_of(one).longest, 1e-20f) : row->scale;
     one->hangs = 0;
     one->floor = -1;
     one->up = j->up;
@@ -471,7 +507,7 @@ static int put(mix_spot *out, const placements *p, const list_row *row, mix_job 
         mix_fail_at(one, &own);
     }
     if (own.text[0] != '\0') {
-        return report_fail(r, "%s: line %d: %s", p->path, (int)row->line, own.text);
+        return fail_row(p, row, r, own.text);
     }
     if (row->at == MIX_AT_WORLD) {
         put_in_world(one);
@@ -600,8 +636,9 @@ static int run(placements *p, report *r)
     double from = p->began;
     int ok = options_files(&j->o, &mix_table, r) && mix_frame_read(&j->frame, &j->o.source, r);
     j->read_s = mix_lap(&from);
-    ok = ok && read_list(p, r) && find_pictures(p, r) && options_files(&j->o, &mix_table, r) && load_meshes(p, r) &&
-         labels_differ(p, r) && can_write(p, r) && mix_find_planes(j, r);
+    ok = ok && (p->is_line ? take_line(p, r) : read_list(p, r)) && find_pictures(p, r) &&
+         options_files(&j->o, &mix_table, r) && load_meshes(p, r) && labels_differ(p, r) && can_write(p, r) &&
+         mix_find_planes(j, r);
     j->planes_s = mix_lap(&from);
     ok = ok && mix_place(j, r) && put_all(p, r);
     j->place_s = mix_lap(&from);
@@ -619,7 +656,9 @@ int mix_placements(mix_job *j, report *r)
         return report_fail(r, "out of memory");
     }
     p->j = j;
-    p->path = j->o.placements;
+    p->is_line = j->o.placements == NULL;
+    p->path = p->is_line ? "--object" : j->o.placements;
+    j->o.object = NULL; /* rows have them */
     p->began = host_seconds();
     const int ok = run(p, r);
     if (ok) {

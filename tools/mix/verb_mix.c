@@ -67,7 +67,7 @@ int verb_mix(int argc, char **argv)
     progress_begin(j->o.is_quiet, "mix");
 #if !defined(OPTIONS_WITHOUT_HELP)
     const int ok = j->o.frames != NULL       ? mix_frames(&j->o, &r)
-                   : j->o.placements != NULL ? mix_placements(j, &r)
+                   : j->o.placements != NULL || j->o.objects > 1 ? mix_placements(j, &r)
                                              : mix(j, &r);
 #else
     const int ok = j->o.frames != NULL ? mix_frames(&j->o, &r) : mix(j, &r);
