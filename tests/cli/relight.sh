@@ -102,6 +102,11 @@ printf '0,0.5,0\n3,0.5,0\n0,0.5,0\n' >path.txt
 status 0 relight --world white.pfm --ground facepx.pfm --ground-size 40,40 --object table.obj --f0 0 --contact --path path.txt --eye 0,0.3,2.5 --target 0,0.1,0 --size 48x24 -o walk.pfm
 check "contact goes with what moves" sh -c 'cmp "$1/walk-0000.pfm" "$1/walk-0002.pfm" && ! cmp -s "$1/walk-0000.pfm" "$1/walk-0001.pfm"' sh .
 status 0 relight --world white.pfm --object demo --contact --size 16x8 -o field.png
+# A ground that is brighter than its world is lit by lamps that the world does not show: contact makes no bright line.
+{ printf 'PF\n1 6\n-1.0\n'; repeated 18 '\315\314\314\075'; } >dim.pfm
+box
+status 0 relight --world dim.pfm --ground facepx.pfm --ground-size 40,40 --object box.obj --scale 0.5 --contact --eye 0.5,1,2 --target 0,0.1,0 --size 64x48 -o foot.pfm
+check "contact makes no bright line at the foot" sh -c '"$1" info foot.pfm | awk "\$1 == \"green\" { exit !(\$5 <= 1.25) }"' sh "$TOOL"
 # A ground of radiance 1 at night receives at least the light that it emits, so a white box adds a part of that.
 printf 'v -1 0 -1\nv 1 0 -1\nv 1 2 -1\nv -1 2 -1\nv -1 0 1\nv 1 0 1\nv 1 2 1\nv -1 2 1\nf 1 4 3 2\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nf 5 6 7 8\n' >white_box.obj
 { printf 'PF\n1 6\n-1.0\n'; head -c 72 /dev/zero; } >night.pfm

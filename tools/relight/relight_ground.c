@@ -6,6 +6,12 @@
 
 #define FADE 0.2f /* of a map's half side: the width of the fade at the edges */
 
+/* The ground's light: all of it; the part that the map shows no source of; the cosine-weighted solid angle of lights
+ * that cast shadows, without peaks. */
+typedef struct ground_sum {
+    float all[3], unseen[3], angle;
+} ground_sum;
+
 /* Adds the loss along some runs of one light with solid angle `angle`, sr; `part` of it. */
 static void darken_runs(ground_map *g, const far_light *l, float (*reflected)[3], float angle, const hidden_run *run,
                         uint32_t count, float part)
@@ -21,6 +27,7 @@ static void darken_runs(ground_map *g, const far_light *l, float (*reflected)[3]
             left[x][0] += lost[0];
             left[x][1] += lost[1];
             left[x][2] += lost[2];
+            g->shut[run[i].row * HIDDEN_SIDE + (uint32_t)x] += part * l->to.y * angle;
         }
     }
 }
@@ -28,15 +35,23 @@ static void darken_runs(ground_map *g, const far_light *l, float (*reflected)[3]
 /* 1, falling to 0 near the edge of a map; u and v are relative to the middle, in half sides. */
 static float fade_of(float u, float v) { return fminf(fmaxf((1.0f - fmaxf(fabsf(u), fabsf(v))) / FADE, 0.0f), 1.0f); }
 
+/* Light that the map shows no source of comes from unknown directions. It counts as blocked only if the object blocks
+ * over half of the directions, which is below the object. There the direction does not matter. */
+static float unseen_lost(const ground_sum *s, float shut, int k)
+{
+    return fminf(fmaxf(2.0f * shut / s->angle - 1.0f, 0.0f), 1.0f) * s->unseen[k];
+}
+
 /* Turns losses into shares left. The loss fades out at the edges of the map instead of ending abruptly. */
-static void turn_to_left(ground_map *g, const float all[3], int fades)
+static void turn_to_left(ground_map *g, const ground_sum *s, int fades)
 {
     for (int32_t i = 0; i < HIDDEN_SIDE * HIDDEN_SIDE; ++i) {
         const float u = (float)(2 * (i % HIDDEN_SIDE) + 1) / HIDDEN_SIDE - 1.0f,
                     v = (float)(2 * (i / HIDDEN_SIDE) + 1) / HIDDEN_SIDE - 1.0f;
         const float fade = fades ? fade_of(u, v) : 1.0f;
         for (int k = 0; k < 3; ++k) {
-            g->left[i][k] = fmaxf(1.0f - fade * g->left[i][k] / all[k], 0.0f);
+            const float lost = g->left[i][k] + unseen_lost(s, g->shut[i], k);
+            g->left[i][k] = fmaxf(1.0f - fade * lost / s->all[k], 0.0f);
         }
     }
 }
@@ -58,8 +73,9 @@ int ground_throw(peak_runs *p, int map, hidden *h, const far_lights *f, const re
 
 /* Takes light from above, but at least the light that the ground sends up at the same slopes, because it cannot reflect
  * more than it receives. */
-void ground_light(float out[3], const far_lights *f)
+static ground_sum sum_lights(const far_lights *f)
 {
+    ground_sum out = {.angle = 1e-30f};
     float from_above[3] = {1e-30f, 1e-30f, 1e-30f}, sent_up[3] = {0.0f, 0.0f, 0.0f};
     for (int32_t i = 0; i < f->count; ++i) {
         const far_light *l = &f->light[i];
@@ -68,21 +84,32 @@ void ground_light(float out[3], const far_lights *f)
             sum[k] += l->rgb[k] * fabsf(l->to.y);
         }
     }
-    for (int k = 0; k < 3; ++k) {
-        out[k] = fmaxf(from_above[k], sent_up[k]);
+    for (int32_t i = 0; i < LMB_PROBE_TEXELS && i < f->count; ++i) {
+        out.angle += f->light[i].to.y >= HIDDEN_LOWEST ? f->angle[i] * f->light[i].to.y : 0.0f;
     }
+    for (int k = 0; k < 3; ++k) {
+        out.all[k] = fmaxf(from_above[k], sent_up[k]);
+        out.unseen[k] = out.all[k] - from_above[k];
+    }
+    return out;
+}
+
+void ground_light(float out[3], const far_lights *f)
+{
+    const ground_sum sum = sum_lights(f);
+    memcpy(out, sum.all, sizeof sum.all);
 }
 
 void ground_shade(ground_map *g, const hidden_map *m, const peak_runs *peaks, lmb_vec3 foot, const far_lights *f,
                   float (*reflected)[3])
 {
-    float all[3];
-    ground_light(all, f);
+    const ground_sum sum = sum_lights(f);
     g->x = foot.x + m->corner_x;
     g->z = foot.z + m->corner_z;
     g->per_x = (float)HIDDEN_SIDE / m->wide;
     g->per_z = (float)HIDDEN_SIDE / m->deep;
     memset(g->left, 0, sizeof g->left);
+    memset(g->shut, 0, sizeof g->shut);
     for (int32_t i = 0; i < f->count; ++i) {
         const far_light *l = &f->light[i];
         const int is_peak = i >= LMB_PROBE_TEXELS;
@@ -94,7 +121,7 @@ void ground_shade(ground_map *g, const hidden_map *m, const peak_runs *peaks, lm
         darken_runs(g, l, reflected, is_peak ? 0.0f : f->angle[i], run + first[0],
                     first[is_peak ? 1 : HIDDEN_RAYS] - first[0], is_peak || !m->fades ? 0.5f : 1.0f / HIDDEN_RAYS);
     }
-    turn_to_left(g, all, m->fades);
+    turn_to_left(g, &sum, m->fades);
 }
 
 /* Returns 0 outside the map. */

@@ -7,6 +7,7 @@
 typedef struct ground_map {
     float x, z, per_x, per_z; /* corner, m, and texels per metre */
     float left[HIDDEN_SIDE * HIDDEN_SIDE][3];
+    float shut[HIDDEN_SIDE * HIDDEN_SIDE]; /* cosine-weighted solid angle that the object blocks */
 } ground_map;
 
 /* Maps around one figure, with finer texels close to it. */
