@@ -119,8 +119,9 @@ typedef struct lmb_live_sky {
 typedef struct lmb_live {
     const lmb_scene *scene; /* the scene that it was built from */
     lmb_live_face *face;
-    lmb_live_point *point;  /* face_cap x side x side: a fixed slot for each block; then 64 slots for further quarters
-                               of each group of 8 x 8 blocks; then element_cap of elements */
+    lmb_live_point *point;  /* face_cap x side x side: a slot for each block, in each row the lit ones first, then a
+                               dark one; then 64 slots for further quarters of each group of 8 x 8 blocks; then
+                               element_cap of elements */
     const struct lmb_element *element; /* shapes of the element points */
     const lmb_live_sky *sky; /* adds its light; NULL: none */
     lmb_live_point *sorted; /* the lit ones, in the order of the cells */

@@ -59,6 +59,29 @@ void lmb_live_block_of(lmb_live_block *out, const lmb_live_face *face, int32_t c
     out->is_one = differ == 0;
 }
 
+int lmb_live_square_is_one(uint32_t *id, const lmb_live_face *face, int32_t column, int32_t row)
+{
+    const int32_t x = column * face->each, y = row * face->each, side = LMB_TILE * face->each;
+    const int is_16 = face->id.format == LMB_ID16;
+    const size_t bytes = (size_t)(side * LMB_TILE) * (is_16 ? sizeof(uint16_t) : sizeof(uint32_t));
+    uint64_t differ = 0;
+    if (face->id.layout != LMB_TILED || face->each != 4 || x + side > face->size || y + side > face->size) {
+        return 0;
+    }
+    *id = live_id(&face->id, x, y);
+    const uint64_t all = (uint64_t)*id * (is_16 ? UINT64_C(0x0001000100010001) : UINT64_C(0x0000000100000001));
+    for (int32_t down = 0; down < side && differ == 0; down += LMB_TILE) {
+        const ptrdiff_t tiles = (ptrdiff_t)((y + down) / LMB_TILE) * face->id.stride_bytes;
+        const uint8_t *from = (const uint8_t *)face->id.data + tiles + (size_t)x * (bytes / (size_t)side);
+        for (size_t i = 0; i < bytes; i += sizeof differ) {
+            uint64_t some;
+            memcpy(&some, from + i, sizeof some);
+            differ |= some ^ all;
+        }
+    }
+    return differ == 0;
+}
+
 int lmb_live_block_is_flat(const lmb_live_block *b, const lmb_live_face *face, const lmb_surface *depth,
                            const lmb_live_facet *p)
 {

@@ -81,7 +81,7 @@ static uint32_t key_of(const builder *b, const lmb_live_point *p)
 /* Slots: those of the blocks of each face, those of the other quarters of each face, those of elements. */
 typedef struct slot_run {
     size_t first, past;
-    size_t skip; /* if a slot is dark, so are those up to the next multiple of skip + 1 from the first */
+    size_t each; /* if a slot is dark, so are the rest of `each` slots: a row of blocks, or the quarters of a tile */
     int of_map;
 } slot_run;
 
@@ -91,13 +91,13 @@ static slot_run slot_run_of(const lmb_live *live, uint32_t run)
 {
     const size_t blocks = (size_t)live->side * (size_t)live->side, tiles = LIVE_QUARTERS * live_tiles(live->side);
     const uint32_t face = run < live->faces ? run : run - live->faces;
-    slot_run s = {live_slots(live->face_cap, live->side), 0, 0, run < 2 * live->faces};
+    slot_run s = {live_slots(live->face_cap, live->side), 0, 1, run < 2 * live->faces};
     s.past = s.first + live->elements;
     if (s.of_map) {
         const int32_t side = live_blocks(&live->face[face]);
         s.first = run < live->faces ? face * blocks : live->face_cap * blocks + face * tiles;
         s.past = s.first + (run < live->faces ? (size_t)side * (size_t)side : LIVE_QUARTERS * live_tiles(side));
-        s.skip = run < live->faces ? 0 : LIVE_QUARTERS - 1;
+        s.each = run < live->faces ? (size_t)side : LIVE_QUARTERS;
     }
     return s;
 }
@@ -106,7 +106,7 @@ static slot_run slot_run_of(const lmb_live *live, uint32_t run)
 static size_t lit_slot(const lmb_live *live, const slot_run *s, size_t i)
 {
     while (i < s->past && !(live_power(live->point[i].flux) > 0.0f)) {
-        i = s->first + ((i - s->first) | s->skip) + 1;
+        i = s->first + ((i - s->first) / s->each + 1) * s->each;
     }
     return i;
 }

@@ -112,6 +112,8 @@ typedef struct collector {
     uint16_t x[LMB_TILE_PIXELS], y[LMB_TILE_PIXELS]; /* the texels of the current tile's blocks */
     uint16_t shows[LMB_TILE_PIXELS];                 /* the parts of each block that the point represents */
     uint16_t rest[LMB_TILE_PIXELS];                  /* parts in other quarters, which get points of their own */
+    int is_one;                                      /* all texels of the tile's blocks show one id; x, y are not set */
+    int32_t lit[LMB_TILE];                           /* points of each row of the current tiles' blocks so far */
     lmb_live_facet known[FACETS];
 } collector;
 
@@ -177,21 +179,19 @@ typedef struct blocks {
 /* The share of a block that shows the surface of pixel k. */
 static float shown_share(const collector *c, int k)
 {
-    return (float)count_bits_16(c->shows[k]) * (1.0f / LMB_LIVE_NODES);
+    return c->is_one ? 1.0f : (float)count_bits_16(c->shows[k]) * (1.0f / LMB_LIVE_NODES);
 }
 
 /* Flux of joined blocks. */
 static void sum_flux(float sum[3], const collector *c, const blocks *b, const float *power, lmb_vec3 at)
 {
+    const float left = light_within_at(c->light, at); /* as in light_end_power */
     for (int i = 0; i < b->wide * b->wide; ++i) {
         const int k = b->first + i / b->wide * LMB_TILE + i % b->wide;
-        float each[3];
+        const float own = power[k] * shown_share(c, k);
         for (int h = 0; h < 3; ++h) {
-            each[h] = texel_flux(c->light->intensity[h], power[k] * shown_share(c, k));
-        }
-        light_end_power(each, c->light, at);
-        for (int h = 0; h < 3; ++h) {
-            sum[h] += each[h] * c->tile->albedo[h][k];
+            const float each = texel_flux(c->light->intensity[h], own);
+            sum[h] += (left < 1.0f ? texel_flux(each, left) : each) * c->tile->albedo[h][k];
         }
     }
     for (int h = 0; h < 3; ++h) {
@@ -206,11 +206,15 @@ static void set_point(lmb_live_point *out, collector *c, int32_t column, int32_t
     const lmb_view *v = &c->face->view;
     const uint32_t id = c->tile->id[k];
     const lmb_live_facet *p = id != 0 ? lmb_live_facet_of(c->known, FACETS, c->scene, v, c->into, id) : NULL;
-    const int32_t x = c->x[k], y = c->y[k];
+    const int in = k - b->first;
+    int32_t x = c->x[k], y = c->y[k];
     lmb_vec3 at;
     memset(out, 0, sizeof *out);
     if (!(power[k] > 0.0f)) {
         return;
+    }
+    if (c->is_one) {
+        texel_of(&x, &y, c, column + in % LMB_TILE, row + in / LMB_TILE);
     }
     if (p == NULL || !lmb_live_place(&at, p, v, texel_sx(v, c->face->size, x), texel_sy(v, c->face->size, y))) {
         return;
@@ -301,9 +305,15 @@ static lmb_status resolve_ids(collector *c, uint32_t id[LMB_TILE_PIXELS], int32_
 /* Resolves one texel of each block. *others: the number of other quarters that get points. */
 static lmb_status resolve_blocks(int *others, collector *c, int32_t column, int32_t row, const float *power)
 {
-    uint32_t id[LMB_TILE_PIXELS];
+    uint32_t id[LMB_TILE_PIXELS], one;
     *others = 0;
-    for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
+    c->is_one = lmb_live_square_is_one(&one, c->face, column, row);
+    for (int32_t k = 0; k < LMB_TILE_PIXELS && c->is_one; ++k) {
+        id[k] = power[k] > 0.0f ? one : 0;
+        c->shows[k] = power[k] > 0.0f ? 0xffffu : 0;
+        c->rest[k] = 0;
+    }
+    for (int32_t k = 0; k < LMB_TILE_PIXELS && !c->is_one; ++k) {
         const int32_t at = column + k % LMB_TILE, down = row + k / LMB_TILE;
         int32_t x, y;
         id[k] = 0;
@@ -331,6 +341,13 @@ static int are_alike(const collector *c, const float *power, int k)
     return alike;
 }
 
+/* Slots of the points of a row of blocks. The lit ones come first, then a dark one. */
+static lmb_live_point *row_of(const collector *c, int32_t row)
+{
+    return c->live->point + (size_t)c->into * (size_t)c->live->side * (size_t)c->live->side +
+           (size_t)row * (size_t)c->side;
+}
+
 /* Stores the points of WIDE x WIDE blocks from (column, row) on: one, or one for each block. */
 static void set_points(collector *c, int32_t column, int32_t row, int k, const float *power, int joined)
 {
@@ -338,17 +355,15 @@ static void set_points(collector *c, int32_t column, int32_t row, int k, const f
     if (column >= side || row >= side) {
         return;
     }
-    lmb_live_point *out = c->live->point + (size_t)c->into * (size_t)c->live->side * (size_t)c->live->side +
-                          (size_t)row * (size_t)side + (size_t)column;
     const int pick = (int)(live_hash((uint32_t)row, (uint32_t)column, number_of(c)) >> 9 & (WIDE * WIDE - 1));
     for (int i = 0; i < WIDE * WIDE; ++i) {
         const int32_t x = i % WIDE, y = i / WIDE, from = joined ? pick : i;
-        lmb_live_point *to = out + (size_t)y * (size_t)side + (size_t)x;
         const blocks b = {k + y * LMB_TILE + x, joined ? WIDE : 1, k + from / WIDE * LMB_TILE + from % WIDE};
         if (column + x < side && row + y < side && !(joined && i > 0)) {
+            int32_t *lit = &c->lit[(row + y) % LMB_TILE];
+            lmb_live_point *to = row_of(c, row + y) + *lit;
             set_point(to, c, column + x, row + y, &b, power);
-        } else if (joined) {
-            memset(to, 0, sizeof *to);
+            *lit += live_power(to->flux) > 0.0f;
         }
     }
 }
@@ -416,6 +431,22 @@ static lmb_status collect_tile(collector *c, int32_t column, int32_t row)
     return status == LMB_OK ? set_quarters(c, others, column, row, power) : status;
 }
 
+/* Collects the tiles of a row. */
+static lmb_status collect_row(collector *c, int32_t row)
+{
+    lmb_status status = LMB_OK;
+    memset(c->lit, 0, sizeof c->lit);
+    for (int32_t column = 0; column < c->side && status == LMB_OK; column += LMB_TILE) {
+        status = collect_tile(c, column, row);
+    }
+    for (int32_t y = 0; y < LMB_TILE && row + y < c->side; ++y) {
+        if (c->lit[y] < c->side) {
+            memset(row_of(c, row + y) + c->lit[y], 0, sizeof(lmb_live_point));
+        }
+    }
+    return status;
+}
+
 /* Tile row `row` of a map contains the blocks of tile row row / each if it is the first of these rows. */
 lmb_status lmb_live_collect(const lmb_live *live, const lmb_kernels *kernels, lmb_tile *scratch,
                             const lmb_scene *scene, uint32_t light, const lmb_shadow_map *map, int32_t face,
@@ -447,9 +478,8 @@ lmb_status lmb_live_collect(const lmb_live *live, const lmb_kernels *kernels, lm
     c.into = into;
     c.side = live_blocks(&own);
     for (int32_t row = first; row < past && status == LMB_OK; ++row) {
-        for (int32_t column = 0; row % own.each == 0 && column < c.side && status == LMB_OK;
-             column += LMB_TILE) {
-            status = collect_tile(&c, column, row / own.each * LMB_TILE);
+        if (row % own.each == 0) {
+            status = collect_row(&c, row / own.each * LMB_TILE);
         }
     }
     return status;

@@ -55,6 +55,10 @@ typedef struct lmb_live_block {
     int is_one;         /* 1: all parts have id[0]; the other members may not be set */
 } lmb_live_block;
 
+/* 1 if all texels of 8 x 8 blocks show one id, which is set. Returns 0 for maps that are not tiled or have blocks of
+ * more than 4 x 4 texels, and for squares that lie partly outside. */
+int lmb_live_square_is_one(uint32_t *id, const lmb_live_face *face, int32_t column, int32_t row);
+
 /* lmb_live_block_of: the ids of a block. lmb_live_block_is_flat: 1 if all parts show surfaces in the plane of one
  * facet. `depth`: of the face's map, LMB_DEPTH32F. */
 void lmb_live_block_of(lmb_live_block *out, const lmb_live_face *face, int32_t column, int32_t row);

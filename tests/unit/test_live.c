@@ -271,6 +271,50 @@ static void alike_blocks_are_joined(void)
     CHECK_MSG(flux > 0.94 * sent && flux < 1.0 * sent, "%g W of %g", flux, sent);
 }
 
+/* Points of a map in rows are those of a tiled map, in which squares of one triangle are found at once. */
+static void points_of_layouts(void)
+{
+    static lmb_live_point before[MAP * MAP / 16];
+    static uint32_t ids[MAP * MAP];
+    static float depths[MAP * MAP];
+    const lmb_light light = spot(vec3(0, 2, 0), vec3(0, -1, 0), 34, 35);
+    uint32_t wrong = 0;
+    world_begin(0.6f, 0.6f, 0.6f);
+    world_triangle(vec3(-9, 0, -9), vec3(0, 0, 9), vec3(9, 0, -9));
+    world_quad(vec3(0.5f, 0.5f, 0.5f), mul3(Z, 0.2f), mul3(X, 0.2f));
+    light_world(&light, 1);
+    const uint32_t points = live.points;
+    CHECK(map.faces == 1 && points <= COUNT(before));
+    memcpy(before, live.sorted, points * sizeof *before);
+    for (int32_t i = 0; i < MAP * MAP; ++i) {
+        const int32_t x = i % MAP, y = i / MAP;
+        const lmb_surface *d = &map.face[0].depth;
+        ids[i] = live_id(&map.face[0].id, x, y);
+        memcpy(&depths[i],
+               (const uint8_t *)d->data + (y / LMB_TILE) * d->stride_bytes +
+                   (x / LMB_TILE * LMB_TILE_PIXELS + y % LMB_TILE * LMB_TILE + x % LMB_TILE) * 4,
+               sizeof depths[i]);
+    }
+    CHECK(map.face[0].id.layout == LMB_TILED && map.face[0].depth.layout == LMB_TILED);
+    map.face[0].id.layout = map.face[0].depth.layout = LMB_LINEAR;
+    map.face[0].id.stride_bytes = map.face[0].depth.stride_bytes = MAP * 4;
+    map.face[0].id.data = ids;
+    map.face[0].depth.data = depths;
+    memset(live_memory, 0x5a, sizeof live_memory);
+    CHECK(lmb_live_init(&live, FACES, lmb_live_side(FACES, MAP), 0, live_memory, sizeof live_memory) == LMB_OK);
+    CHECK(lmb_live_collect(&live, picked_kernels(), &tile, &world.scene, 0, &map, 0, 0, 0, MAP / LMB_TILE) == LMB_OK);
+    live.faces = 1;
+    CHECK(lmb_live_build(&live, &world.scene) == LMB_OK);
+    for (uint32_t i = 0; i < points && live.points == points; ++i) {
+        const lmb_live_point *a = &before[i], *b = &live.sorted[i];
+        wrong += memcmp(&a->position, &b->position, sizeof a->position) != 0 ||
+                 memcmp(a->flux, b->flux, sizeof a->flux) != 0 || memcmp(&a->area, &b->area, sizeof a->area) != 0 ||
+                 a->id != b->id || a->column != b->column || a->row != b->row || a->shows != b->shows;
+    }
+    CHECK_MSG(live.points == points && wrong == 0, "%u of %u, %u points differ", (unsigned)live.points,
+              (unsigned)points, (unsigned)wrong);
+}
+
 /* A map with an odd number of blocks each way, of 8 texels: at its far edges pairs of blocks are cut off. The points
  * have all light of the texels. */
 static void odd_blocks(void)
@@ -1158,6 +1202,7 @@ void test_live(void)
     sums_and_shares();
     area_counts_once();
     alike_blocks_are_joined();
+    points_of_layouts();
     odd_blocks();
     quarters_of_blocks();
     crowded_blocks_keep_their_light();
