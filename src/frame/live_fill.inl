@@ -65,8 +65,7 @@ LANE_INLINE lane_mask corners_agreements(lane agree[4], const lmb_live_cell *p, 
 {
     lane_mask all = lane_lt(lane_splat(0.0f), lane_splat(1.0f));
     for (int i = 0; i < 4; ++i) {
-        agree[i] = p->even ? lane_splat(1.0f) : p->corner[i] != NULL ? corners_agree(p->corner[i], tile, k)
-                                                                     : lane_splat(0.0f);
+        agree[i] = p->corner[i] != NULL ? corners_agree(p->corner[i], tile, k) : lane_splat(0.0f);
         all = mask_and(all, lane_lt(lane_splat(0.0f), agree[i]));
     }
     return all;
@@ -102,12 +101,63 @@ LANE_INLINE uint32_t corners_light(lmb_irradiance *inout, const lmb_tile *tile, 
     return mask_bits(known);
 }
 
+/* Smallest and largest light that pixels of an even cell may get. */
+static inline void corners_range(float range[3][2], const lmb_live_cell *p)
+{
+    for (int h = 0; h < 3; ++h) {
+        float low = 3e38f, high = 0.0f;
+        for (int i = 0; i < 4; ++i) {
+            low = minf(low, p->corner[i]->light[h]);
+            high = maxf(high, p->corner[i]->light[h]);
+        }
+        const float span = 0.5f * (high - low);
+        range[h][0] = maxf(low - span, 0.0f);
+        range[h][1] = high + span;
+    }
+}
+
+/* As corners_light, if all corners agree fully with all pixels: these are explained. */
+LANE_INLINE void corners_even(lmb_irradiance *inout, const lmb_live_cell *p, int k, uint32_t asked,
+                              float range[3][2])
+{
+    const lane zero = lane_splat(0.0f), one = lane_splat(1.0f), half = lane_splat(0.5f);
+    const lane x = lane_column(k), y = lane_row(k);
+    const lane dx[2] = {lane_sub(x, lane_splat(p->x[0])), lane_sub(x, lane_splat(p->x[1]))},
+               dy[2] = {lane_sub(y, lane_splat(p->y[0])), lane_sub(y, lane_splat(p->y[1]))};
+    const lane u = lane_mul(dx[0], lane_splat(p->per_x)), v = lane_mul(dy[0], lane_splat(p->per_y));
+    const lane across[2] = {lane_sub(one, u), u}, along[2] = {lane_sub(one, v), v};
+    lane weight[4], sum = zero;
+    for (int i = 0; i < 4; ++i) {
+        weight[i] = lane_add(lane_max(lane_mul(across[i & 1], along[i >> 1]), zero), lane_splat(0.001f));
+        sum = lane_add(sum, weight[i]);
+    }
+    const lane per = lane_div(one, sum);
+    for (int h = 0; h < 3; ++h) {
+        lane light = zero;
+        for (int i = 0; i < 4; ++i) {
+            const lmb_live_sample *s = p->corner[i];
+            const lane on = lane_add(lane_splat(s->light[h]),
+                                     lane_add(lane_mul(lane_splat(s->slope[0][h]), lane_mul(half, dx[i & 1])),
+                                              lane_mul(lane_splat(s->slope[1][h]), lane_mul(half, dy[i >> 1]))));
+            light = lane_add(light, lane_mul(weight[i], on));
+        }
+        light = lane_hold(lane_mul(light, per), lane_splat(range[h][0]), lane_splat(range[h][1]));
+        lane_store(inout->rgb[h] + k, lane_pick(mask_of_bits(asked), light, lane_load(inout->rgb[h] + k)));
+    }
+}
+
 static uint64_t KERNEL(live_fill)(lmb_irradiance *inout, const lmb_tile *tile, const lmb_live_cell *p)
 {
     uint64_t left = 0;
+    float range[3][2];
+    if (p->even) {
+        corners_range(range, p);
+    }
     for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
         const uint32_t asked = (uint32_t)(p->pixels >> k) & (~0u >> (32 - LANES));
-        if (asked != 0) {
+        if (asked != 0 && p->even) {
+            corners_even(inout, p, k, asked, range);
+        } else if (asked != 0) {
             left |= (uint64_t)(asked & ~corners_light(inout, tile, p, k, asked)) << k;
         }
     }

@@ -73,6 +73,37 @@ static void test_even(void)
     }
 }
 
+/* If all corners agree with all pixels, testing that changes no byte. */
+static void test_agreement(const lmb_kernels *kernels)
+{
+    test_rng r = {7};
+    put_wall(1000);
+    for (int n = 0; n < 50; ++n) {
+        static const int32_t step[3] = {2, 8, 16};
+        lmb_live_sample corner[4];
+        lmb_irradiance out[2];
+        lmb_live_cell cell;
+        memset(&cell, 0, sizeof cell);
+        memset(out, 0x11, sizeof out);
+        for (int i = 0; i < 4; ++i) {
+            corner[i] = lmb_live_grid_surface(&tile[0], i);
+            for (int c = 0; c < 3; ++c) {
+                corner[i].light[c] = test_uniform(&r, 0, 2);
+                corner[i].slope[0][c] = test_uniform(&r, -0.3f, 0.3f);
+                corner[i].slope[1][c] = test_uniform(&r, -0.3f, 0.3f);
+            }
+            cell.corner[i] = &corner[i];
+        }
+        cell.x[1] = cell.y[1] = (float)step[n % 3];
+        cell.per_x = cell.per_y = 1.0f / cell.x[1];
+        cell.pixels = n % 3 == 0 ? 0x0303u : ~(uint64_t)0;
+        for (cell.even = 0; cell.even < 2; ++cell.even) {
+            CHECK(kernels->live_fill(&out[cell.even], &tile[0], &cell) == 0);
+        }
+        CHECK(memcmp(&out[0], &out[1], sizeof out[0]) == 0);
+    }
+}
+
 /* Evaluates the samples of a level. Returns their number. */
 static int light_level(int32_t level, light_at at)
 {
@@ -297,6 +328,9 @@ static void test_backends(void)
 void test_live_grid(void)
 {
     test_even();
+    for (int i = 0; lmb_kernels_at(i) != NULL; ++i) {
+        test_agreement(lmb_kernels_at(i));
+    }
     test_walls(lmb_kernels_pick());
     test_edge(lmb_kernels_pick());
     test_noise(LMB_TILE, 0);
