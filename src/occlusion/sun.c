@@ -242,7 +242,7 @@ static void sun_trace(sun_traversal *w)
             w->kept->alone = SINGLE_POINTS;
         }
     }
-    uint32_t boxes = 0;
+    uint32_t boxes = w->kept->sun_boxes;
     int misses = 0;
     uint64_t bits = w->left;
     while (bits != 0 && !traversal_is_over(w->kept)) {
@@ -251,7 +251,7 @@ static void sun_trace(sun_traversal *w)
         bits &= ~w->left;
         (void)sun_descend(w, ~0u);
         open |= w->left;
-        boxes = w->kept->asked - before;
+        boxes = w->kept->sun_boxes = w->kept->asked - before;
         if (w->left == 0 && misses < MAX_MISSES) {
             const uint64_t others = bits;
             bits = without_blocked(w, bits);
@@ -261,22 +261,59 @@ static void sun_trace(sun_traversal *w)
     w->left = open | bits;
 }
 
+/* Begins a call. Returns 1 if too few tests are left to trace a ray. */
+static int sun_is_spent(lmb_traversal *t, uint64_t pixels)
+{
+    t->end = t->spent + 0x7fffffffu;
+    if (!t->bounded) {
+        return 0;
+    }
+    t->sun_spent = maxi(t->sun_spent, -LMB_TRAVERSAL_MOST) - LMB_TRAVERSAL_SUN_EACH * (1 + count_bits_64(pixels));
+    t->end = t->spent + (uint32_t)(2 * LMB_TRAVERSAL_SUN_FIRST - t->sun_spent);
+    return t->sun_spent > LMB_TRAVERSAL_SUN_FIRST;
+}
+
+/* The last traced answer; a pixel that was not asked then gets the answer of the next one that was. */
+static uint64_t sun_again(lmb_traversal *t, uint64_t pixels)
+{
+    uint64_t dark = t->sun_dark & pixels;
+    ++t->coarse;
+    for (uint64_t bits = t->sun_asked != 0 ? pixels & ~t->sun_asked : 0; bits != 0; bits &= bits - 1) {
+        const uint64_t after = t->sun_asked & ~((bits & (~bits + 1)) - 1), next = after != 0 ? after : t->sun_asked;
+        dark |= (next & (~next + 1) & t->sun_dark) != 0 ? bits & (~bits + 1) : 0;
+    }
+    return dark;
+}
+
+static uint64_t sun_end(lmb_traversal *t, uint32_t before, uint64_t pixels, uint64_t dark)
+{
+    if (t->bounded) {
+        t->sun_spent += (int32_t)(t->spent - before);
+        t->coarse += traversal_is_over(t);
+        t->sun_asked = pixels;
+        t->sun_dark = dark;
+    }
+    return dark;
+}
+
 uint64_t lmb_occluded_sun(const lmb_kernels *kernels, lmb_traversal *kept, const lmb_bvh *bvh, const lmb_tile *tile,
                           uint64_t pixels, lmb_vec3 to)
 {
     if (bvh == NULL || kernels == NULL || tile == NULL || kept == NULL || pixels == 0 || bvh->node_count == 0) {
         return 0;
     }
+    if (sun_is_spent(kept, pixels)) {
+        return sun_again(kept, pixels);
+    }
     const uint32_t before = kept->spent;
-    const uint64_t asked = traversal_begin(kept, pixels);
     sun_traversal w = {
-        bvh,   kernels, tile, tile_vec(tile->position, lowest_bit_64(asked)), to, kept, noise_of_pixels(tile, asked),
-        asked, 0};
+        bvh,    kernels, tile, tile_vec(tile->position, lowest_bit_64(pixels)), to, kept, noise_of_pixels(tile, pixels),
+        pixels, 0};
     test_kept(&w);
     if (w.left != 0) {
         sun_trace(&w);
     }
-    return traversal_end(kept, before, pixels, asked, asked & ~w.left);
+    return sun_end(kept, before, pixels, pixels & ~w.left);
 }
 
 #endif

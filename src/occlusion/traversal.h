@@ -84,6 +84,9 @@ static inline void traversal_bound(lmb_traversal *t)
     t->bounded = 1;
     t->left = LMB_TRAVERSAL_FIRST;
     t->spent = t->end = t->coarse = 0;
+    t->sun_spent = 0;
+    t->sun_boxes = 0;
+    t->sun_asked = t->sun_dark = 0;
 }
 
 /* Moves a triangle to the front of `count` numbers + 1. If it is not among them, the last one is dropped. */

@@ -800,9 +800,11 @@ static uint64_t by_points(const lmb_kernels *kernels, lmb_traversal *t, const lm
                                    : lmb_occluded_tile(kernels, t, b, &tile, ~UINT64_C(0), at,
                                                        noise_of(&tile, ~UINT64_C(0), at)));
     }
-    const uint32_t most = 2 * LMB_TRAVERSAL_FIRST + CALLS * (65 * LMB_TRAVERSAL_EACH + LMB_TRAVERSAL_COARSE);
+    const uint32_t first = is_sun ? LMB_TRAVERSAL_SUN_FIRST : LMB_TRAVERSAL_FIRST,
+                   call = is_sun ? 65 * LMB_TRAVERSAL_SUN_EACH : 65 * LMB_TRAVERSAL_EACH + LMB_TRAVERSAL_COARSE,
+                   most = 2 * first + CALLS * call;
     CHECK_MSG(!is_bounded || t->spent <= most, "%u tests", (unsigned)t->spent);
-    CHECK_MSG((t->coarse > 0) <= (t->spent + CALLS > LMB_TRAVERSAL_FIRST), "%u coarse", (unsigned)t->coarse);
+    CHECK_MSG((t->coarse > 0) <= (t->spent + CALLS > first), "%u coarse", (unsigned)t->coarse);
     return hash;
 }
 

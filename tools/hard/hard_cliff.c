@@ -102,8 +102,8 @@ static void put_scene(hard_stage *s, int scene, int count, const frame *f, uint6
     }
 }
 
-/* The scene in a closed box, which is another part. */
-static int make_scene(hard_stage *s, int scene, int count, const frame *f, uint64_t *rng)
+/* The scene in a closed box, which is another part; is_open: without the box. */
+static int make_scene(hard_stage *s, int scene, int count, int is_open, const frame *f, uint64_t *rng)
 {
     static uint8_t texels[4 * SIDE * SIDE];
     hard_begin(s, 0.5);
@@ -114,21 +114,36 @@ static int make_scene(hard_stage *s, int scene, int count, const frame *f, uint6
             texels[4 * i + 3] = 0;
         }
     }
-    (void)hard_part(s, 0.5);
-    hard_box(s, dvec_of(0, 0, 0), dvec_of(2, 2, 2));
+    if (!is_open) {
+        (void)hard_part(s, 0.5);
+        hard_box(s, dvec_of(0, 0, 0), dvec_of(2, 2, 2));
+    }
     return hard_end(s);
+}
+
+static void put_tile(hard_stage *s)
+{
+    memset(&s->tile, 0, sizeof s->tile);
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        s->tile.position[0][k] = 1.5f + 0.02f * (float)(k % 8);
+        s->tile.position[1][k] = 0.02f * (float)(k / 8);
+    }
+}
+
+static int make_bvh(lmb_bvh *b, void **memory, const hard_stage *s)
+{
+    const size_t bytes = lmb_bvh_bytes(s->count);
+    *memory = malloc(bytes + 1);
+    return *memory != NULL && bytes > 0 && lmb_bvh_init(b, s->count, *memory, bytes) == LMB_OK &&
+           lmb_bvh_build(b, &s->scene) == LMB_OK;
 }
 
 /* Tests points around a small tile with one traversal; `bounded` as for a tile of a picture. */
 static counted ask(hard_stage *s, const lmb_bvh *b, lmb_traversal *t, int bounded, int calls, uint64_t *rng)
 {
     counted r = {HUGE_VAL, 0};
-    memset(&s->tile, 0, sizeof s->tile);
+    put_tile(s);
     memset(t, 0, sizeof *t);
-    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        s->tile.position[0][k] = 1.5f + 0.02f * (float)(k % 8);
-        s->tile.position[1][k] = 0.02f * (float)(k / 8);
-    }
     t->bounded = bounded;
     t->left = LMB_TRAVERSAL_FIRST;
     for (int i = 0; i < calls; ++i) {
@@ -147,12 +162,46 @@ static counted tests(hard_stage *s, int scene, int is_turned, int bounded)
     counted r = {HUGE_VAL, 0};
     lmb_traversal *t = malloc(sizeof *t);
     const frame f = frame_of(is_turned, &rng);
-    const int ok = make_scene(s, scene, bounded ? MANY : TRIANGLES, &f, &rng);
-    const size_t bytes = ok ? lmb_bvh_bytes(s->count) : 0;
-    void *memory = malloc(bytes + 1);
-    if (t != NULL && memory != NULL && bytes > 0 && lmb_bvh_init(&b, s->count, memory, bytes) == LMB_OK &&
-        lmb_bvh_build(&b, &s->scene) == LMB_OK) {
+    void *memory = NULL;
+    if (t != NULL && make_scene(s, scene, bounded ? MANY : TRIANGLES, 0, &f, &rng) && make_bvh(&b, &memory, s)) {
         r = ask(s, &b, t, bounded, bounded ? MANY_CALLS : CALLS, &rng);
+    }
+    free(memory);
+    free(t);
+    return r;
+}
+
+/* The same of rays to the points of a slow curve at infinity. *wrong: share of pixels with another answer than without
+ * a bound. */
+static counted sun_tests(hard_stage *s, double *wrong, int scene)
+{
+    uint64_t rng = 41;
+    lmb_bvh b;
+    counted r = {HUGE_VAL, 0};
+    lmb_traversal *t = calloc(2, sizeof *t);
+    const frame f = frame_of(0, &rng);
+    void *memory = NULL;
+    *wrong = HUGE_VAL;
+    if (t != NULL && make_scene(s, scene, scene == ROOM ? MANY : TRIANGLES, scene != ROOM, &f, &rng) &&
+        make_bvh(&b, &memory, s)) {
+        put_tile(s);
+        t[0].bounded = 1;
+        t[0].left = LMB_TRAVERSAL_FIRST;
+        *wrong = 0;
+        for (int i = 0; i < MANY_CALLS; ++i) {
+            const double a = PI * i / MANY_CALLS, y = 0.6 * cos(a), z = 0.6 * sin(a);
+            const dvec d = dvec_unit(dvec_of(-1, y, z));
+            const lmb_vec3 to = {(float)d.x, (float)d.y, (float)d.z};
+            uint64_t dark[2] = {0, 0};
+            for (int k = 0; k < 2; ++k) {
+                dark[k] = lmb_occluded_sun(s->kernels, &t[k], &b, &s->tile, ~UINT64_C(0), to);
+            }
+            for (uint64_t bits = dark[0] ^ dark[1]; bits != 0; bits &= bits - 1) {
+                *wrong += 1.0 / (LMB_TILE_PIXELS * MANY_CALLS);
+            }
+        }
+        r.each = (double)t->spent / MANY_CALLS;
+        r.coarse = t->coarse;
     }
     free(memory);
     free(t);
@@ -165,7 +214,7 @@ static double picture_work(hard_stage *s, int scene)
     uint64_t rng = 41;
     const frame f = frame_of(1, &rng);
     const uint64_t before = s->stats.pairs + s->stats.segments;
-    if (!make_scene(s, scene, TRIANGLES, &f, &rng)) {
+    if (!make_scene(s, scene, TRIANGLES, 0, &f, &rng)) {
         return HUGE_VAL;
     }
     hard_point(s, dvec_of(0.3, 1.7, 0.2), 10.0);
@@ -221,5 +270,13 @@ void hard_cliff(hard_list *list)
              tests(list->stage, STACK, 0, 1).each, limit, "tests");
     hard_put(list, HARD_EXACT, "a room: coarse calls of a bounded tile", (double)tests(list->stage, ROOM, 1, 1).coarse,
              0, "calls");
+    double wrong;
+    const double sun_limit = 2.0 * LMB_TRAVERSAL_SUN_FIRST / MANY_CALLS + 65 * LMB_TRAVERSAL_SUN_EACH;
+    hard_put(list, HARD_BOUNDED, "2,000 triangles with holes, 1 mm apart: tests of rays to a sun",
+             sun_tests(list->stage, &wrong, STACK).each, sun_limit, "tests");
+    hard_put(list, HARD_MEASURED, "the same: rays with another answer than without a bound", wrong, 0.023, "of all");
+    hard_put(list, HARD_EXACT, "a room: coarse rays to a sun", (double)sun_tests(list->stage, &wrong, ROOM).coarse, 0,
+             "calls");
+    hard_put(list, HARD_EXACT, "a room: rays to a sun with another answer than without a bound", wrong, 0, "of all");
     put_pictures(list);
 }
