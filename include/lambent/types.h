@@ -105,6 +105,7 @@ typedef struct lmb_stats {
     uint32_t regroups; /* times grouping restarted because LMB_MAX_GROUPS was reached */
     uint32_t bands;
     uint64_t pairs, segments; /* LMB_GROUP_CUT: pixels x nodes that light them; segments tested for visibility */
+    uint64_t corner_segments; /* segments to a light from pixels whose shadow map may not show the corner of a room */
     uint64_t full_cuts;       /* pixel clusters lit by too few nodes because LMB_MAX_CUT was reached; and points of
                                  lmb_live for which LMB_LIVE_CUT or LMB_LIVE_NEAR was reached */
     uint32_t tiles;           /* tiles lit by cuts of many lights or of trees, once for each */

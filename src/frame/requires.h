@@ -216,6 +216,7 @@ static inline void add_counts(lmb_stats *stats, const lmb_stats *counts)
     if (LMB_TREES && stats != NULL) {
         stats->pairs += counts->pairs;
         stats->segments += counts->segments;
+        stats->corner_segments += counts->corner_segments;
         stats->full_cuts += counts->full_cuts;
         stats->tiles += counts->tiles;
         stats->coarse_tiles += counts->coarse_tiles;

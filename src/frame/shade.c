@@ -33,6 +33,7 @@ NOINLINE void leave_out_leaks(lmb_irradiance *lit, lmb_band_scratch *s, const lm
     if (asked == 0) {
         return;
     }
+    s->counts.corner_segments += (uint64_t)count_bits_64(asked);
     traversal_bound(t);
     t->eye_kind = view->kind == LMB_PERSPECTIVE ? LMB_EYE_PLACE : LMB_EYE_FAR;
     t->eye = view->kind == LMB_PERSPECTIVE ? view->eye : view->back;

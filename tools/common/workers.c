@@ -57,6 +57,7 @@ static void draw_band(void *user, int part, int worker)
     w->counts[worker].bands += 1;
     w->counts[worker].pairs += scratch->counts.pairs;
     w->counts[worker].segments += scratch->counts.segments;
+    w->counts[worker].corner_segments += scratch->counts.corner_segments;
     w->counts[worker].full_cuts += scratch->counts.full_cuts;
     w->counts[worker].tiles += scratch->counts.tiles;
     w->counts[worker].coarse_tiles += scratch->counts.coarse_tiles;
@@ -79,6 +80,7 @@ static lmb_status sum_up(const stage_work *w, lmb_stats *stats)
             stats->bands += w->counts[i].bands;
             stats->pairs += w->counts[i].pairs;
             stats->segments += w->counts[i].segments;
+            stats->corner_segments += w->counts[i].corner_segments;
             stats->full_cuts += w->counts[i].full_cuts;
             stats->tiles += w->counts[i].tiles;
             stats->coarse_tiles += w->counts[i].coarse_tiles;

@@ -88,12 +88,12 @@ static int write_stats(const render_job *j, report *r)
         "  \"scene_triangles\": %u, \"triangles_read\": %u, \"triangles_drawn\": %u, \"triangles_dropped\": %u,\n"
         "  \"lights\": %u, \"shadow_map\": %d, \"first_points\": %s, \"discs\": %s, \"groups\": %s, \"regroups\": %s,\n"
         "  \"pairs\": %.0f, \"segments\": %.0f, \"full_cuts\": %.0f, \"tiles\": %.0f, \"coarse_tiles\": %.0f,\n"
-        "  \"elements\": %u, \"element_m\": %.6g,\n",
+        "  \"corner_segments\": %.0f, \"elements\": %u, \"element_m\": %.6g,\n",
         (unsigned)lmb_scene_triangles(&j->scene), (unsigned)s->triangles, (unsigned)s->triangles_drawn,
         (unsigned)s->triangles_dropped, (unsigned)j->scene.light_count, (int)j->frame.shadow_map,
         count_text(points, j, s->first_points), count_text(discs, j, s->discs), count_text(groups, j, s->groups),
         count_text(regroups, j, s->regroups), (double)s->pairs, (double)s->segments, (double)s->full_cuts,
-        (double)s->tiles, (double)s->coarse_tiles,
+        (double)s->tiles, (double)s->coarse_tiles, (double)s->corner_segments,
         (unsigned)j->render->frame.elements.count,
         (double)j->render->frame.elements.side);
     n += snprintf(text + n, sizeof text - (size_t)n,
