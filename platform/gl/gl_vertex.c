@@ -552,14 +552,17 @@ static int vertex_area_mode(const gl_context *c)
 static void vertex_box(const gl_context *c, float low[4], float high[4])
 {
 #ifdef __SSE__
-    __m128 l = _mm_loadu_ps(c->at_of[0]), h = l;
-    for (int i = 1; i < c->count; ++i) {
-        const __m128 v = _mm_loadu_ps(c->at_of[i]);
+    /* Two at a time, because each minimum waits for the one before it. */
+    __m128 l = _mm_loadu_ps(c->at_of[0]), h = l, l_odd = l, h_odd = l;
+    for (int i = 1; i < c->count; i += 2) {
+        const __m128 v = _mm_loadu_ps(c->at_of[i]), odd = _mm_loadu_ps(c->at_of[i + 1 < c->count ? i + 1 : i]);
         l = _mm_min_ps(v, l);
         h = _mm_max_ps(v, h);
+        l_odd = _mm_min_ps(odd, l_odd);
+        h_odd = _mm_max_ps(odd, h_odd);
     }
-    _mm_storeu_ps(low, l);
-    _mm_storeu_ps(high, h);
+    _mm_storeu_ps(low, _mm_min_ps(l, l_odd));
+    _mm_storeu_ps(high, _mm_max_ps(h, h_odd));
 #else
     memcpy(low, c->at_of[0], 4 * sizeof *low);
     memcpy(high, c->at_of[0], 4 * sizeof *high);
