@@ -360,7 +360,7 @@ lmb_status lmb_draw_list(const lmb_draw_target *target, const lmb_draw_state *st
 {
     const lmb_status status = list_check(target, state, vertices, primitive, indices);
     uint32_t dashed = 0;
-    draw_primitive now = {{0, 0, 0}, 0};
+    draw_primitive now = {{0, 0, 0}, 0, 0};
     lmb_draw_pass pass;
     draw_vertex few[DRAW_FEW];
     if (status != LMB_OK) {

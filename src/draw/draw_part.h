@@ -48,10 +48,11 @@ enum {
 };
 enum { DRAW_CORNERS = 3 + DRAW_CUTS }; /* of a triangle cut by all planes */
 
-/* For a shader: the current primitive. */
+/* For a shader: the current primitive. small_from: the place in the list from which a batch is tried. */
 typedef struct draw_primitive {
     uint32_t vertex[3];
     int32_t is_back;
+    uint32_t small_from;
 } draw_primitive;
 
 /* Constant over a call. */
@@ -72,6 +73,7 @@ typedef struct lmb_draw_pass {
     int32_t fills;                   /* upright rectangles that need no triangles: DRAW_FILLS_COLOUR, ... */
     struct draw_vertex *few;         /* DRAW_FEW corners of triangles; NULL: all take the general path */
     int32_t fog_is_w;              /* 1: the fog distance is the w of clip space */
+    int32_t draws;                 /* kernels draw whole triangles: DRAW_AREAS; small ones in batches: DRAW_SMALLS */
     draw_primitive *now;
     lmb_stats *stats;
 } lmb_draw_pass;
@@ -125,6 +127,7 @@ typedef struct draw_vertex {
     int32_t x, y;       /* 24.8 from the viewport's centre */
     float d, inverse;   /* 1 / w */
 } draw_vertex;
+enum { DRAW_AREAS = 1, DRAW_SMALLS = 2 };
 enum { DRAW_FILLS_COLOUR = 1 /* of one colour */, DRAW_FILLS_SHEET = 2 /* any, with the state's kernels */ };
 enum { DRAW_FEW = 4 /* for quads and strips */, DRAW_DROPPED = 256 };
 
@@ -189,6 +192,10 @@ typedef struct draw_edge {
  * lies in tiles that the target has whole. */
 void lmb_draw_rows_sheet(const lmb_draw_pass *pass, const lmb_draw_shape half[2], const draw_edge *edge,
                          const int32_t box[4]);
+
+/* If pass->draws & DRAW_AREAS: draws pixels box[0] .. box[2], box[1] .. box[3] of the frame, inside the pass, that are
+ * inside the edges. Returns 0, and draws nothing, if the target cuts tiles of the box off. */
+int lmb_draw_rows_area(const lmb_draw_pass *pass, lmb_draw_shape *shape, const draw_edge edge[3], const int32_t box[4]);
 
 /* If pass->fills: fills columns x0 .. x1 and rows y0 .. y1 of the frame, inside the pass, with R G B A. */
 void lmb_draw_rows_fill(const lmb_draw_pass *pass, const uint8_t codes[4], int32_t x0, int32_t x1, int32_t y0,

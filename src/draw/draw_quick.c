@@ -13,7 +13,7 @@
 #if LMB_DRAW
 enum { QUICK_24_8 = 16 * 256 /* largest side of the box of small triangles */ };
 enum { QUICK_AHEAD = 24 /* indices */, QUICK_KNOWN = 16 /* more take too much stack beside a kernel's vectors */,
-       QUICK_QUEUE = 6 /* triangles */ };
+       QUICK_QUEUE = 6 /* triangles */, QUICK_REST = 8 /* triangles after one that no batch can draw */ };
 #define QUICK_ABSURD  1e30f
 #define QUICK_LEAST_W 1e-12f /* as in draw_cut.c */
 
@@ -34,6 +34,7 @@ void lmb_draw_quick_begin(lmb_draw_pass *pass, draw_vertex few[DRAW_FEW])
         few[i].name = 0;
     }
     pass->few = few;
+    pass->draws &= pass->fog_is_w ? DRAW_AREAS | DRAW_SMALLS : DRAW_AREAS;
 }
 
 /* --- corners ------------------------------------------------------------------------------------------------------ */
@@ -239,11 +240,31 @@ static void quick_fill_box(const lmb_draw_pass *pass, lmb_draw_late *late, int64
     }
 }
 
+#if LMB_DRAW_LANES
+/* Draws the triangle by one kernel, if possible. */
+NOINLINE int quick_area(const lmb_draw_pass *pass, lmb_draw_shape *shape, const quick_edges *edges)
+{
+    const int32_t box[4] = {edges->x0, edges->y0, edges->x1, edges->y1};
+    draw_edge edge[3];
+    for (int i = 0; i < 3; ++i) {
+        edge[i].at = edges->e[i] - edges->ex[i] * (edges->x0 & 7) - edges->ey[i] * (edges->y0 & 7);
+        edge[i].x = edges->ex[i];
+        edge[i].y = edges->ey[i];
+    }
+    return lmb_draw_rows_area(pass, shape, edge, box);
+}
+#endif
+
 /* Fills tiles in rows, as the general path does. */
 static void quick_fill(const lmb_draw_pass *pass, lmb_draw_late *late, int64_t area, const quick_edges *edges)
 {
     lmb_draw_shape shape;
     quick_begin_shape(&shape, late, area);
+#if LMB_DRAW_LANES
+    if ((pass->draws & DRAW_AREAS) != 0 && quick_area(pass, &shape, edges)) {
+        return;
+    }
+#endif
     for (int32_t y = edges->y0 & ~7; y <= edges->y1; y += LMB_TILE) {
         for (int32_t x = edges->x0 & ~7; x <= edges->x1; x += LMB_TILE) {
             const uint64_t mask = quick_covered(edges, x, y);
@@ -405,12 +426,88 @@ NOINLINE uint32_t quick_stream(const lmb_draw_pass *pass, uint32_t i, uint32_t c
     return i;
 }
 
-uint32_t lmb_draw_quick_run(const lmb_draw_pass *pass, uint32_t i, uint32_t count)
+#if LMB_DRAW_LANES
+static void quick_set_small(lmb_draw_small *b, const lmb_draw_pass *pass)
+{
+    const lmb_draw_target *t = pass->target;
+    b->state = pass->state;
+    b->positions = (const float *)pass->vertices->positions;
+    b->floats = pass->vertices->position_format == LMB_DRAW_F32X4 ? 4 : 3;
+    b->colours = pass->vertices->colours;
+    b->middle_x = pass->middle_x;
+    b->middle_y = pass->middle_y;
+    b->snap_x = pass->snap_x;
+    b->snap_y = pass->snap_y;
+    b->guard_x = pass->guard_x;
+    b->guard_y = pass->guard_y;
+    b->x0 = pass->x0;
+    b->y0 = pass->y0;
+    b->x1 = pass->x1;
+    b->y1 = pass->y1;
+    b->right = mini(pass->x1 | 7, t->x0 + t->colour.width - 1);
+    b->target_x = t->x0;
+    b->target_y = t->y0;
+    b->depth = pass->tests ? (float *)t->depth.data : NULL;
+    b->colour = (uint8_t *)t->colour.data;
+    b->depth_step = t->depth.stride_bytes / 4;
+    b->colour_stride = t->colour.stride_bytes;
+    b->swaps = t->colour.format == LMB_BGRA8;
+    b->drawn = 0;
+}
+
+/* Draws small triangles by the state's kernels. Returns the first that needs another path. */
+NOINLINE uint32_t quick_small(const lmb_draw_pass *pass, uint32_t i, uint32_t count)
+{
+    const uint32_t first = i;
+    lmb_draw_small b;
+    quick_set_small(&b, pass);
+    while (i < count) {
+        const uint32_t left = (count - i + 2) / 3;
+        b.count = left < LMB_DRAW_SMALLS ? left : LMB_DRAW_SMALLS;
+        for (uint32_t k = 0; k < LMB_DRAW_SMALLS; ++k) {
+            const int32_t at = (int32_t)(i - 2 + 3 * (k < b.count ? k : 0));
+            b.at[0][k] = at;
+            b.at[1][k] = at + 1;
+            b.at[2][k] = at + 2;
+        }
+        const uint32_t done = pass->state->kernels->draw_small(&b);
+        i += 3 * done;
+        if (done < b.count) {
+            pass->now->small_from = i + 3 * QUICK_REST;
+            break;
+        }
+    }
+    if (pass->stats != NULL) {
+        pass->stats->triangles += ((i < count ? i : count) - first + 2) / 3;
+        pass->stats->triangles_drawn += b.drawn;
+    }
+    return i;
+}
+#endif
+
+/* Small triangles in batches; a few others, and more after each of them, one by one. */
+static uint32_t quick_streams(const lmb_draw_pass *pass, uint32_t i, uint32_t count)
+{
+#if LMB_DRAW_LANES
+    while ((pass->draws & DRAW_SMALLS) != 0 && i < count) {
+        if (i >= pass->now->small_from) {
+            i = quick_small(pass, i, count);
+        }
+        if (i < count) {
+            const uint32_t end = pass->now->small_from < count ? pass->now->small_from : count;
+            i = quick_stream(pass, i, end);
+            if (i < end) {
+                return i;
+            }
+        }
+    }
+#endif
+    return quick_stream(pass, i, count);
+}
+
+NOINLINE uint32_t quick_indexed(const lmb_draw_pass *pass, uint32_t i, uint32_t count)
 {
     draw_vertex known[QUICK_KNOWN];
-    if (pass->indices == NULL) {
-        return quick_stream(pass, i, count);
-    }
     for (int k = 0; k < QUICK_KNOWN; ++k) {
         known[k].name = 0;
     }
@@ -424,6 +521,11 @@ uint32_t lmb_draw_quick_run(const lmb_draw_pass *pass, uint32_t i, uint32_t coun
         }
     }
     return i;
+}
+
+uint32_t lmb_draw_quick_run(const lmb_draw_pass *pass, uint32_t i, uint32_t count)
+{
+    return pass->indices != NULL ? quick_indexed(pass, i, count) : quick_streams(pass, i, count);
 }
 
 /* --- rectangles --------------------------------------------------------------------------------------------------- */

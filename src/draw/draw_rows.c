@@ -66,6 +66,33 @@ static int rows_lanes_sample(const lmb_draw_state *s)
 }
 #endif
 
+/* 1: a kernel draws whole triangles: without texture and fog, in common states. */
+static int rows_draw_areas(const lmb_draw_pass *pass)
+{
+#if LMB_DRAW_LANES
+    return pass->paints_lanes && pass->state->kernels->draw_area != NULL && pass->paints_rows != ROWS_NOT &&
+           pass->state->stage[0].texture == NULL && pass->state->area_pattern == NULL &&
+           (!pass->tests || (pass->tests_rows && pass->target->depth.layout == LMB_LINEAR));
+#else
+    (void)pass;
+    return 0;
+#endif
+}
+
+/* 1: a kernel draws small triangles in batches. It reads and writes rows of eight pixels inside the pass's tiles. */
+static int rows_draw_small(const lmb_draw_pass *pass)
+{
+#if LMB_DRAW_LANES
+    const lmb_draw_target *t = pass->target;
+    return pass->draws != 0 && pass->state->kernels->draw_small != NULL &&
+           mini(pass->x1 | 7, t->x0 + t->colour.width - 1) - maxi(pass->x0 & ~7, t->x0) >= 7 &&
+           pass->vertices->count < (uint32_t)1 << 28; /* indices of floats fit 32 bits */
+#else
+    (void)pass;
+    return 0;
+#endif
+}
+
 /* 1: a kernel colours both triangles of upright rectangles. */
 static int rows_fills_sheet(const lmb_draw_pass *pass)
 {
@@ -94,6 +121,8 @@ void lmb_draw_rows_begin(lmb_draw_pass *pass)
     pass->paints_lanes =
         s->kernels != NULL && paints && rows_are_little() && s->fog <= LMB_DRAW_FOG_LINEAR && rows_lanes_sample(s);
 #endif
+    pass->draws = rows_draw_areas(pass) ? DRAW_AREAS : 0;
+    pass->draws |= rows_draw_small(pass) ? DRAW_SMALLS : 0;
     if (paints && !pass->tests && s->area_pattern == NULL && s->planes == 0 && pass->vertices->back_colours == NULL &&
         (s->flags & (LMB_DRAW_CULL_FRONT | LMB_DRAW_CULL_BACK)) == 0 && s->polygon_mode[0] == LMB_DRAW_FILL &&
         s->polygon_mode[1] == LMB_DRAW_FILL) {
@@ -202,6 +231,52 @@ static void rows_set_steps(lmb_draw_slope *slope, const lmb_draw_plane *p)
 {
     slope->x = (float)p->x;
     slope->y = (float)p->y;
+}
+
+int lmb_draw_rows_area(const lmb_draw_pass *pass, lmb_draw_shape *shape, const draw_edge edge[3], const int32_t box[4])
+{
+    const lmb_draw_target *t = pass->target;
+    const int32_t x = box[0] & ~7, y = box[1] & ~7;
+    lmb_draw_area a;
+    if (x < t->x0 || y < t->y0 || (box[2] | 7) - t->x0 >= t->colour.width || (box[3] | 7) - t->y0 >= t->colour.height) {
+        return 0;
+    }
+    if (shape->late != NULL) {
+        lmb_draw_finish(pass, shape);
+    }
+    rows_lanes_set(&a.pixels, pass, shape, x, y);
+    a.plane[0] = &shape->d;
+    a.plane[1] = &shape->n1;
+    a.plane[2] = &shape->n2;
+    a.plane[3] = &shape->q;
+    rows_set_steps(&a.pixels.d, &shape->d);
+    rows_set_steps(&a.pixels.n1, &shape->n1);
+    rows_set_steps(&a.pixels.n2, &shape->n2);
+    if (!shape->is_even) {
+        rows_set_steps(&a.pixels.q, &shape->q);
+    }
+    a.pixels.d_min = shape->d_min;
+    a.pixels.d_max = shape->d_max;
+    a.pixels.d_add = shape->d_add;
+    a.colour = a.pixels.colour;
+    a.tests = pass->tests;
+    if (pass->tests) {
+        a.pixels.depth_step = t->depth.stride_bytes / 4;
+        a.depth = (float *)t->depth.data + (ptrdiff_t)(y - t->y0) * a.pixels.depth_step + (x - t->x0);
+    }
+    a.x = (x * 256 + 128 - pass->middle_x) * (1.0 / 256.0);
+    a.y = (y * 256 + 128 - pass->middle_y) * (1.0 / 256.0);
+    for (int i = 0; i < 3; ++i) {
+        a.edge[i] = edge[i].at;
+        a.edge_x[i] = edge[i].x;
+        a.edge_y[i] = edge[i].y;
+    }
+    a.x0 = box[0] - x;
+    a.y0 = box[1] - y;
+    a.x1 = box[2] - x;
+    a.y1 = box[3] - y;
+    pass->state->kernels->draw_area(&a);
+    return 1;
 }
 
 void lmb_draw_rows_sheet(const lmb_draw_pass *pass, const lmb_draw_shape half[2], const draw_edge *edge,

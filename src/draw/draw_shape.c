@@ -198,12 +198,11 @@ static int shape_holds_pixel(const lmb_draw_pass *pass, const lmb_screen_vertex 
     return maxi(x0, pass->x0) <= mini(x1, pass->x1) && maxi(y0, pass->y0) <= mini(y1, pass->y1);
 }
 
-static int shape_triangle(const lmb_draw_pass *pass, const lmb_draw_corner *a, const lmb_draw_corner *b,
-                          const lmb_draw_corner *c, int is_cut)
+/* Returns 0 if no pixel can be drawn. */
+static int shape_set_triangle(lmb_draw_shape *out, lmb_setup *s, const lmb_draw_pass *pass, const lmb_draw_corner *a,
+                              const lmb_draw_corner *b, const lmb_draw_corner *c)
 {
-    lmb_draw_shape shape;
     lmb_screen_vertex at[3];
-    lmb_setup s;
     float inverse[3] = {shape_snap(&at[0], a, pass), shape_snap(&at[1], b, pass), shape_snap(&at[2], c, pass)};
     const int64_t area = setup_area(&at[0], &at[1], &at[2]);
     if (area == 0 || shape_is_culled(pass->state, area > 0) || !shape_holds_pixel(pass, at)) {
@@ -220,26 +219,54 @@ static int shape_triangle(const lmb_draw_pass *pass, const lmb_draw_corner *a, c
         inverse[1] = inverse[2];
         inverse[2] = w;
     }
-    lmb_setup_triangle(&s, &at[0], &at[1], &at[2]);
-    shape.corner[0] = a;
-    shape.corner[1] = b;
-    shape.corner[2] = c;
-    shape.corners = 3;
-    shape.late = NULL;
-    shape.is_cut = is_cut;
+    lmb_setup_triangle(s, &at[0], &at[1], &at[2]);
+    out->corner[0] = a;
+    out->corner[1] = b;
+    out->corner[2] = c;
+    out->corners = 3;
+    out->late = NULL;
     if (DRAW_FULL) {
         pass->now->is_back = shape_is_back(pass->state, area > 0);
     }
-    shape.d = shape_plane(s.d_origin, s.d_x, s.d_y);
-    shape.d_min = s.d_min;
-    shape.d_max = s.d_max;
-    shape.d_add = shape_offset(pass, &s);
+    out->d = shape_plane(s->d_origin, s->d_x, s->d_y);
+    out->d_min = s->d_min;
+    out->d_max = s->d_max;
+    out->d_add = shape_offset(pass, s);
     const double by_area = 1.0 / (double)(area < 0 ? -area : area);
-    shape.n1 = shape_edge(&s, 2, &at[2], by_area);
-    shape.n2 = shape_edge(&s, 0, &at[0], by_area);
-    shape_set_shares(&shape, inverse);
-    shape_fill(pass, &shape, &s);
+    out->n1 = shape_edge(s, 2, &at[2], by_area);
+    out->n2 = shape_edge(s, 0, &at[0], by_area);
+    shape_set_shares(out, inverse);
     return 1;
+}
+
+#if LMB_DRAW_LANES
+/* Draws the triangle by one kernel, if possible. */
+static int shape_area(const lmb_draw_pass *pass, lmb_draw_shape *shape, const lmb_setup *s)
+{
+    const int32_t x = 128 - pass->middle_x, y = 128 - pass->middle_y;
+    const int32_t box[4] = {maxi((s->x_min - x + 255) >> 8, pass->x0), maxi((s->y_min - y + 255) >> 8, pass->y0),
+                            mini((s->x_max - x) >> 8, pass->x1), mini((s->y_max - y) >> 8, pass->y1)};
+    draw_edge edge[3];
+    for (int i = 0; i < 3; ++i) {
+        edge[i].at = setup_edge(s, i, (box[0] & ~7) * 256 + x, (box[1] & ~7) * 256 + y);
+        edge[i].x = s->ex[i];
+        edge[i].y = s->ey[i];
+    }
+    return lmb_draw_rows_area(pass, shape, edge, box);
+}
+#endif
+
+NOINLINE int shape_cut_part(const lmb_draw_pass *pass, const lmb_draw_corner *a, const lmb_draw_corner *b,
+                            const lmb_draw_corner *c)
+{
+    lmb_draw_shape shape;
+    lmb_setup s;
+    const int shows = shape_set_triangle(&shape, &s, pass, a, b, c);
+    shape.is_cut = 1;
+    if (shows) {
+        shape_fill(pass, &shape, &s);
+    }
+    return shows;
 }
 
 /* A triangle that needs cutting. All corners and a kernel's vectors take too much stack together, so it is coloured in
@@ -253,9 +280,27 @@ NOINLINE int shape_cut_triangle(const lmb_draw_pass *pass, const lmb_draw_corner
     }
     const int n = lmb_draw_cut_polygon(all, pass);
     for (int i = 2; i < n; ++i) {
-        drawn |= shape_triangle(pass, &all[0], &all[i - 1], &all[i], 1);
+        drawn |= shape_cut_part(pass, &all[0], &all[i - 1], &all[i]);
     }
     return drawn;
+}
+
+/* A triangle that needs no cutting. */
+NOINLINE int shape_whole_triangle(const lmb_draw_pass *pass, const lmb_draw_corner corner[3])
+{
+    lmb_draw_shape shape;
+    lmb_setup s;
+    if (!shape_set_triangle(&shape, &s, pass, &corner[0], &corner[1], &corner[2])) {
+        return 0;
+    }
+    shape.is_cut = 0;
+#if LMB_DRAW_LANES
+    if ((pass->draws & DRAW_AREAS) != 0 && shape_area(pass, &shape, &s)) {
+        return 1;
+    }
+#endif
+    shape_fill(pass, &shape, &s);
+    return 1;
 }
 
 int lmb_draw_triangle(const lmb_draw_pass *pass, const lmb_draw_corner corner[3])
@@ -265,7 +310,7 @@ int lmb_draw_triangle(const lmb_draw_pass *pass, const lmb_draw_corner corner[3]
             return shape_cut_triangle(pass, corner);
         }
     }
-    return shape_triangle(pass, &corner[0], &corner[1], &corner[2], 0);
+    return shape_whole_triangle(pass, corner);
 }
 
 /* --- lines -------------------------------------------------------------------------------------------------------- */

@@ -45,6 +45,8 @@
 #endif
 #if LMB_DRAW_LANES
 #include "../draw/draw_lanes.inl"
+#include "../draw/draw_area.inl"
+#include "../draw/draw_small.inl"
 #endif
 #if LMB_TRANSFER
 #include "../direct/texel.inl"
@@ -170,8 +172,18 @@ const lmb_kernels KERNEL(lmb_kernels) = {
     KERNEL(draw_paint),
 #if defined(LANE_PLAIN)
     NULL,
+    NULL,
+    NULL,
 #else
     KERNEL(draw_sheet),
+    KERNEL(draw_area),
+#if LANES <= LMB_TILE
+    KERNEL(draw_small),
+#elif LMB_HAVE_AVX2
+    lmb_draw_small_avx2,
+#else
+    NULL,
+#endif
 #endif
     KERNEL(draw_fill),
 #endif

@@ -9,5 +9,9 @@
 #define BACKEND "avx2"
 #define KERNEL(name) name##_avx2
 #include "all_kernels.inl"
+
+#if LMB_DRAW_LANES
+uint32_t lmb_draw_small_avx2(lmb_draw_small *inout) { return draw_small_avx2(inout); }
+#endif
 #include "../lane/target_end.h"
 #endif

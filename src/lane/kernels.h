@@ -166,6 +166,39 @@ typedef struct lmb_draw_sheet {
     int32_t x0, y0, x1, y1; /* first and last pixels */
     uint8_t *colour;        /* pixel 0 */
 } lmb_draw_sheet;
+
+/* A triangle in tiles that lie entirely in the target. Distances count from pixel 0 of the first tile. */
+typedef struct lmb_draw_area {
+    lmb_draw_patch pixels;          /* without values at pixel 0; plane: d, n1, n2 and q */
+    const lmb_draw_plane *plane[4];
+    double x, y;                    /* pixel 0 from the viewport's centre, px */
+    int64_t edge[3];                /* at pixel 0; pixels with all edges >= 0 are inside */
+    int32_t edge_x[3], edge_y[3];   /* per px */
+    int32_t x0, y0, x1, y1;         /* first and last pixels */
+    int32_t tests;                  /* 1: depth test */
+    float *depth;                   /* pixel 0 */
+    uint8_t *colour;                /* pixel 0 */
+} lmb_draw_area;
+
+/* Small triangles in order, without texture and fog, opaque or blended by alpha. Pixels count in the frame. */
+enum { LMB_DRAW_SMALLS = 8 /* of a batch */ };
+typedef struct lmb_draw_small {
+    const lmb_draw_state *state;
+    const float *positions;
+    int32_t floats;         /* of a position: 3 or 4 */
+    const uint8_t *colours; /* R G B A of a vertex; NULL: the state's */
+    int32_t middle_x, middle_y; /* viewport's centre, 24.8 */
+    float snap_x, snap_y, guard_x, guard_y;
+    int32_t x0, y0, x1, y1; /* pixels that may be drawn */
+    int32_t right; /* the last column that may be read, and written as it was; at least seven more than the first */
+    int32_t target_x, target_y; /* the target's first pixel */
+    float *depth; /* NULL: no depth test; rows are depth_step floats apart */
+    uint8_t *colour;
+    int32_t depth_step, colour_stride;
+    int32_t swaps; /* 1: blue is the first byte in memory */
+    uint32_t count, drawn; /* triangles, and those of them that may show so far */
+    int32_t at[3][LMB_DRAW_SMALLS]; /* vertices; all are valid */
+} lmb_draw_small;
 #endif
 
 enum { LMB_SMALL_24_8 = 64 * 256 /* box sides below this let edges fit 32 bits */ };
@@ -717,6 +750,10 @@ struct lmb_kernels {
     void (*draw_paint)(const lmb_draw_patch *pixels, uint64_t mask);
     /* Colours all pixels of the sheet, without fog and with at most one texture; changes its halves. Plain C: NULL. */
     void (*draw_sheet)(lmb_draw_sheet *sheet);
+    /* Draws the pixels of a triangle; changes `pixels`. Plain C: NULL. */
+    void (*draw_area)(lmb_draw_area *area);
+    /* Draws triangles up to the first that needs another path. Returns that, or the count. Plain C: NULL. */
+    uint32_t (*draw_small)(lmb_draw_small *inout);
     /* Blends R G B A, in the order of the pixels' bytes, onto rows `stride` bytes apart: over them by the share
      * A, or added. */
     void (*draw_fill)(uint8_t *row, int32_t stride, int32_t width, int32_t height, uint32_t codes, int adds);
@@ -727,5 +764,8 @@ struct lmb_kernels {
 #define LMB_KERNELS_OF(upper, lower) extern const lmb_kernels lmb_kernels_##lower;
 LMB_BACKENDS(LMB_KERNELS_OF)
 #undef LMB_KERNELS_OF
+#if LMB_DRAW_LANES
+uint32_t lmb_draw_small_avx2(lmb_draw_small *inout); /* AVX-512 uses it too */
+#endif
 
 #endif

@@ -10,7 +10,7 @@
 void test_draw_lists(void);
 
 #if LMB_DRAW
-enum { ROUNDS = 400, WIDE = 61, HIGH = 45, VERTICES = 36, CORNERS = 60, TEXELS = 16 * 8 };
+enum { ROUNDS = 400, WIDE = 61, HIGH = 45, VERTICES = 60, CORNERS = 60, TEXELS = 16 * 8 };
 
 /* The draws of a round, and their target. */
 typedef struct lists {
@@ -183,6 +183,43 @@ static void make_sheets(lists *l, test_rng *r)
     }
 }
 
+/* Triangles of one to some hundred pixels without indices, in the states that kernels draw in batches or whole, in any
+ * window. */
+static void make_streams(lists *l, test_rng *r)
+{
+    static const float sizes[4] = {0.05f, 0.15f, 0.4f, 2.0f};
+    lmb_draw_state *s = &l->state;
+    s->flags &= ~(uint32_t)(LMB_DRAW_LOGIC | LMB_DRAW_ALPHA_TEST);
+    s->flags |= LMB_DRAW_SCISSOR;
+    s->fog = LMB_DRAW_FOG_NONE;
+    s->colour_mask = 15;
+    s->offset_slope = any(r, 4) ? 0.0f : 1.5f;
+    s->stage[0].texture = s->stage[1].texture = NULL;
+    s->blend_source[0] = s->blend_source[1] = LMB_DRAW_SOURCE_ALPHA;
+    s->blend_target[0] = s->blend_target[1] = any(r, 2) ? LMB_DRAW_ONE : LMB_DRAW_INVERSE_SOURCE_ALPHA;
+    s->blend_equation[0] = s->blend_equation[1] = LMB_DRAW_ADD;
+    for (int k = 0; k < 2; ++k) {
+        const int32_t side = k == 0 ? WIDE : HIGH, first = any(r, 3) ? 0 : (int32_t)any(r, (uint32_t)side);
+        s->scissor[k] = first;
+        s->scissor[2 + k] = any(r, 3) ? side : 1 + (int32_t)any(r, (uint32_t)(side - first));
+    }
+    l->primitive = LMB_DRAW_TRIANGLES;
+    l->format = any(r, 2) ? LMB_RGBA8 : LMB_BGRA8;
+    l->depth_layout = LMB_LINEAR;
+    l->has_indices = 0;
+    for (int i = 0; i < VERTICES; i += 3) {
+        const float size = sizes[any(r, 4)], x = test_uniform(r, -1.5f, 1.5f), y = test_uniform(r, -1.2f, 1.2f),
+                    z = test_uniform(r, -4.0f, -2.0f);
+        for (int k = i; k < i + 3; ++k) {
+            l->positions[k][0] = x + test_uniform(r, -size, size);
+            l->positions[k][1] = y + test_uniform(r, -size, size);
+            l->positions[k][2] = z + (any(r, 3) ? test_uniform(r, -size, size) : 0.0f);
+            memcpy(l->colours[k], l->colours[any(r, 2) ? i : k], 4);
+        }
+    }
+    make_homogeneous(l, r);
+}
+
 static void make_lists(lists *l, test_rng *r)
 {
     memset(l, 0, sizeof *l);
@@ -201,6 +238,8 @@ static void make_lists(lists *l, test_rng *r)
     l->colour_before = test_random(r);
     if (any(r, 3) == 0) {
         make_sheets(l, r);
+    } else if (any(r, 2) == 0) {
+        make_streams(l, r);
     }
 }
 

@@ -1,0 +1,175 @@
+/* draw_area.inl: all tiles of a triangle without texture and fog in one call, LANES pixels at a time. Layer 4.
+ *
+ * Values equal those of draw_shape.c and draw_tile.c. What the tiles share is set up once for the triangle. */
+
+#if !defined(LANE_PLAIN)
+/* Draws the pixels of the mask. */
+LANE_INLINE void area_tile(const lmb_draw_patch *p, uint64_t mask, lanei same, int meets, int tests, int varies)
+{
+    const int writes = (p->state->flags & LMB_DRAW_DEPTH_WRITE) != 0, func = p->state->depth_func;
+    const lane low = lane_splat(p->d_min), high = lane_splat(p->d_max);
+    while (mask != 0) { /* processors mispredict a test of each vector */
+        const int k = lowest_bit_64(mask) & ~(LANES - 1);
+        uint32_t bits = draw_bits(mask, k);
+        uint8_t *to = p->colour + (ptrdiff_t)(k >> 3) * p->colour_stride + 4 * (k & 7);
+        mask &= ~((uint64_t)ALL_LANES << k);
+        if (tests) {
+            float *at = p->depth + (ptrdiff_t)(k >> 3) * p->depth_step + (k & 7);
+            const lane was = lane_load_rows(at, p->depth_step);
+            lane d = lane_hold(draw_slope_at(&p->d, k), low, high);
+            if (p->d_add != 0.0f) {
+                d = lane_hold(lane_add(d, lane_splat(p->d_add)), lane_splat(0.0f), lane_splat(1.0f));
+            }
+            const lane_mask passes = mask_and(mask_of_bits(bits), draw_passing(func, d, was));
+            bits &= mask_bits(passes);
+            if (varies && bits == 0) {
+                continue;
+            }
+            if (writes) {
+                lane_store_rows(at, p->depth_step, lane_pick(passes, d, was));
+            }
+        }
+        lanei made = same;
+        if (varies) {
+            const draw_share share = draw_share_at(p, k);
+            draw_codes v;
+            for (int i = 0; i < 4; ++i) {
+                v.c[i] = draw_code(draw_value_at(p, i, &share));
+            }
+            made = draw_join(&v);
+            made = p->swaps ? draw_swap(made) : made;
+        }
+        const lanei was = draw_load(to, p->colour_stride);
+        made = meets == DRAW_MEET_OVER ? codes_over(made, was) : meets == DRAW_MEET_ADD ? codes_plus(made, was) : made;
+        draw_save(to, p->colour_stride, lanei_pick(mask_of_bits(bits), made, was));
+    }
+}
+
+/* What the tiles share. */
+typedef struct area_walk {
+    lanei same;
+    int64_t low[3], high[3]; /* changes of the edges from a tile's first pixel to their least and greatest */
+    int meets;
+} area_walk;
+
+static void KERNEL(area_set)(area_walk *w, const lmb_draw_area *a)
+{
+    const lmb_draw_patch *p = &a->pixels;
+    draw_codes v;
+    w->meets = draw_meets(p->state);
+    for (int i = 0; i < 4; ++i) {
+        v.c[i] = draw_code(lane_splat(p->at[i]));
+    }
+    w->same = draw_join(&v);
+    w->same = p->swaps ? draw_swap(w->same) : w->same;
+    for (int i = 0; i < 3; ++i) {
+        const int64_t ex = a->edge_x[i], ey = a->edge_y[i];
+        w->low[i] = 7 * ((ex < 0 ? ex : 0) + (ey < 0 ? ey : 0));
+        w->high[i] = 7 * ((ex > 0 ? ex : 0) + (ey > 0 ? ey : 0));
+    }
+}
+
+/* The pixels of a tile that are inside all edges, which are e at the first pixel. A tile inside an edge does not need
+ * it, so that sums fit 32 bits. */
+LANE_INLINE uint64_t area_covered(const lmb_draw_area *a, const area_walk *w, const int64_t e[3])
+{
+    int32_t at[3], by_x[3], by_y[3];
+    int crossed = 0;
+    for (int i = 0; i < 3; ++i) {
+        const int is_in = e[i] + w->low[i] >= 0;
+        at[i] = is_in ? 0 : (int32_t)e[i];
+        by_x[i] = is_in ? 0 : a->edge_x[i];
+        by_y[i] = is_in ? 0 : a->edge_y[i];
+        crossed |= !is_in;
+    }
+    return crossed ? KERNEL(draw_cover)(at, by_x, by_y) : ~(uint64_t)0;
+}
+
+/* The pixels of the tile at (x, y) that are in the box. */
+LANE_INLINE uint64_t area_box(const lmb_draw_area *a, int32_t x, int32_t y)
+{
+    uint64_t rows = ~(uint64_t)0;
+    uint32_t columns = 0xffu;
+    rows = y < a->y0 ? rows << LMB_TILE * (a->y0 - y) : rows;
+    rows = y + 7 > a->y1 ? rows & ~(uint64_t)0 >> LMB_TILE * (y + 7 - a->y1) : rows;
+    columns = x < a->x0 ? columns << (a->x0 - x) : columns;
+    columns = x + 7 > a->x1 ? columns & 0xffu >> (x + 7 - a->x1) : columns;
+    return rows & (columns & 0xffu) * UINT64_C(0x0101010101010101);
+}
+
+LANE_INLINE void area_slope(lmb_draw_slope *out, const lmb_draw_plane *p, double x, double y)
+{
+    out->at = (float)(p->origin + p->x * x + p->y * y);
+}
+
+LANE_NOINLINE void KERNEL(area_plain)(const lmb_draw_patch *p, const area_walk *w, uint64_t mask, int tests)
+{
+    const int varies = p->varies;
+    if (w->meets == DRAW_MEET_OVER) {
+        if (tests) {
+            area_tile(p, mask, w->same, DRAW_MEET_OVER, 1, varies);
+        } else {
+            area_tile(p, mask, w->same, DRAW_MEET_OVER, 0, varies);
+        }
+    } else if (w->meets == DRAW_MEET_ADD) {
+        area_tile(p, mask, w->same, DRAW_MEET_ADD, tests, varies);
+    } else if (tests && varies) {
+        area_tile(p, mask, w->same, DRAW_MEET_NOT, 1, 1);
+    } else if (tests) {
+        area_tile(p, mask, w->same, DRAW_MEET_NOT, 1, 0);
+    } else {
+        area_tile(p, mask, w->same, DRAW_MEET_NOT, 0, varies);
+    }
+}
+
+LANE_INLINE void area_draw(lmb_draw_area *a, const area_walk *w, uint64_t mask, int32_t x, int32_t y)
+{
+    lmb_draw_patch *p = &a->pixels;
+    const double at_x = a->x + x, at_y = a->y + y;
+    p->colour = a->colour + (ptrdiff_t)y * p->colour_stride + 4 * (ptrdiff_t)x;
+    if (a->tests) {
+        p->depth = a->depth + (ptrdiff_t)y * p->depth_step + x;
+        area_slope(&p->d, a->plane[0], at_x, at_y);
+    }
+    if (p->varies) {
+        area_slope(&p->n1, a->plane[1], at_x, at_y);
+        area_slope(&p->n2, a->plane[2], at_x, at_y);
+        if (!p->is_even) {
+            area_slope(&p->q, a->plane[3], at_x, at_y);
+        }
+    }
+    KERNEL(area_plain)(p, w, mask, a->tests);
+}
+
+static void KERNEL(draw_area)(lmb_draw_area *a)
+{
+    area_walk w;
+    KERNEL(area_set)(&w, a);
+    for (int32_t y = 0; y <= a->y1; y += LMB_TILE) {
+        int64_t e[3];
+        int entered = 0;
+        for (int i = 0; i < 3; ++i) {
+            e[i] = a->edge[i] + (int64_t)a->edge_y[i] * y;
+        }
+        for (int32_t x = 0; x <= a->x1; x += LMB_TILE) {
+            const int enters = e[0] + w.high[0] >= 0 && e[1] + w.high[1] >= 0 && e[2] + w.high[2] >= 0;
+            if (entered && !enters) {
+                break; /* the tiles of a row that a triangle touches are next to each other */
+            }
+            entered = enters;
+            if (enters) {
+                uint64_t mask = area_covered(a, &w, e);
+                if (x < a->x0 || y < a->y0 || x + 7 > a->x1 || y + 7 > a->y1) {
+                    mask &= area_box(a, x, y);
+                }
+                if (mask != 0) {
+                    area_draw(a, &w, mask, x, y);
+                }
+            }
+            for (int i = 0; i < 3; ++i) {
+                e[i] += (int64_t)a->edge_x[i] * LMB_TILE;
+            }
+        }
+    }
+}
+#endif
