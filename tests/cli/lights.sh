@@ -53,8 +53,8 @@ for count in 3 200; do
     for kind in point spot; do
         many_lights 0 1 open.gltf $kind $count
         for range in 0 0.1 0.6; do
-            sed "s/\"intensity\":0.3/&,\"range\":$range/" open.gltf >range.gltf
-            status 0 render range.gltf $look --show direct -o "range$range.pfm"
+            sed "s/\"intensity\":0.3/&,\"range\":$range/" open.gltf >ended.gltf
+            status 0 render ended.gltf $look --show direct -o "range$range.pfm"
             check "a range is drawn, not left out" lacks range err.txt
         done
         status 0 render open.gltf $look --show direct -o open.pfm
@@ -62,10 +62,10 @@ for count in 3 200; do
         check "$count ${kind}s: one of 0.6 m is seen" differ range0.6.pfm open.pfm
         check "$count ${kind}s: one of 0.1 m ends before the floor" is_black range0.1.pfm
         check "$count ${kind}s: without it there is light" sh -c '! "$@"' sh cmp -s range0.1.pfm range0.6.pfm
-        status 0 pack range.gltf -o range.lmp --position-error 0 --order file
-        status 0 render range.lmp $look --show direct -o packed.pfm
+        status 0 pack ended.gltf -o ended.lmp --position-error 0 --order file
+        status 0 render ended.lmp $look --show direct -o packed.pfm
         check "$count ${kind}s: a packed scene keeps ranges" cmp packed.pfm range0.6.pfm
-        status 0 render range.gltf $look --show direct --many-lights 300 --light-error 0.0001 -o tree.pfm
+        status 0 render ended.gltf $look --show direct --many-lights 300 --light-error 0.0001 -o tree.pfm
         status 0 compare tree.pfm range0.6.pfm --max trim=0.02
     done
 done
