@@ -137,7 +137,7 @@ cheap='s/320x240/32x24/; s/160x120/32x24/; s/64x48/32x24/; s/24x16/12x8/; s/--vo
     s/80x60/40x30/; s/72.43,72.43,39.5,29.5/36.2,36.2,19.5,14.5/
     /lambent pla/s/32x24/16x12/; s/--receivers [0-9]*/--receivers 200/
     s/--elements [0-9]*/--elements 256 --cluster 0.6/; s/--faces 32/--faces 8/; s/--seconds 0.1/--seconds 0.01/; s/--size 64 /--size 16 /
-    s/--frames 4/--frames 2/; s/tree=16,32,64/tree=16,32/; s/fill-depth /fill-depth-pass /; s/lambent doctor/& -v/
+    s/--frames 4/--frames 2/; s/tree=16,32,64/tree=16,32/; s/voxels=4,5/voxels=4/; s/fill-depth /fill-depth-pass /; s/lambent doctor/& -v/
     s/lambent\(-bench\| render\| play\| capture\| plan\) demo/& --shadow-map 64/'
 pasted() {
     mkdir -p paste

@@ -85,7 +85,7 @@ said "$long.obj: cannot be opened: No such file or directory"
 # play prints its notes before its first picture.
 "$TOOL" play tent.obj --size 8x6 --quality draft --frames 3 -o noted%02d.ppm --time-limit 100 >out.txt 2>noted.txt
 check "play ends" test $? -eq 0
-"$TOOL" play tent.obj --size 320x240 --quality draft --frames 100000 --time-limit 2 >out.txt 2>cut.txt
+"$TOOL" play tent.obj --size 320x240 --quality draft --frames 100000 --time-limit 1 >out.txt 2>cut.txt
 check "play ends at its limit" test $? -eq 1
 check "play prints its notes before the end" grep -qxFf noted.txt cut.txt
 check "play has notes" test -s noted.txt

@@ -12,7 +12,7 @@ fi
 # Here only the pictures count, so this build is plain C without optimisation; statue.sh and `make examples-tiny`
 # share it.
 plain="-DLMB_HAVE_AVX512=0 -DLMB_HAVE_AVX2=0 -DLMB_HAVE_SSE2=0"
-make_here() { $MAKE "$@" PORT=host CONFIG=tiny BUILD="$BUILD/plain" CFLAGS="-O0 $plain"; }
+make_here() { $MAKE "$@" PORT=host CONFIG=tiny BUILD="$BUILD/plain" ONE_UNIT=1 CFLAGS="-O0 $plain"; }
 here=$BUILD/plain/tiny
 check "the demo for this machine" make_here "$here/demo"
 check "the demo for a Cortex-M4F" $MAKE "$BUILD/cortex-m/tiny/demo" PORT=cortex-m CONFIG=tiny BUILD="$BUILD/cortex-m" \
