@@ -76,9 +76,9 @@ typedef struct lmb_segments {
 #define LMB_TRAVERSAL_EACH   48
 #define LMB_TRAVERSAL_COARSE 64
 
-/* The same for rays to points at infinity, counted apart. On top of 2^17 tests, ordinary scenes need up to 15 for each
- * pixel of their calls, and a tree of 6,000 leaves with holes 47. */
-#define LMB_TRAVERSAL_SUN_FIRST 131072
+/* The same for rays to points at infinity, counted apart. If a tile starts with 2^17 tests, dense lawns and bushes are
+ * coarser. */
+#define LMB_TRAVERSAL_SUN_FIRST 1048576
 #define LMB_TRAVERSAL_SUN_EACH  64
 
 /* State of traversals, one for each thread. It remembers the triangles that blocked most recently, because they often
@@ -97,7 +97,6 @@ typedef struct lmb_traversal {
     int32_t left;                      /* tests left to this tile: each call adds some */
     uint32_t coarse;                   /* calls with a coarse answer, because too few tests were left */
     int32_t sun_spent;                 /* tests of rays to points at infinity, minus those that calls added */
-    uint32_t sun_boxes;                /* boxes that the last ones met */
     uint64_t sun_asked, sun_dark;      /* pixels of the last such call that was traced, and the occluded ones */
     int32_t eye_kind;                  /* LMB_EYE_*: kind of `eye` */
     lmb_vec3 eye;                      /* position of the eye that sees the pixels, or direction towards it */

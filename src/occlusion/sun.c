@@ -242,7 +242,7 @@ static void sun_trace(sun_traversal *w)
             w->kept->alone = SINGLE_POINTS;
         }
     }
-    uint32_t boxes = w->kept->sun_boxes;
+    uint32_t boxes = 0;
     int misses = 0;
     uint64_t bits = w->left;
     while (bits != 0 && !traversal_is_over(w->kept)) {
@@ -251,7 +251,7 @@ static void sun_trace(sun_traversal *w)
         bits &= ~w->left;
         (void)sun_descend(w, ~0u);
         open |= w->left;
-        boxes = w->kept->sun_boxes = w->kept->asked - before;
+        boxes = w->kept->asked - before;
         if (w->left == 0 && misses < MAX_MISSES) {
             const uint64_t others = bits;
             bits = without_blocked(w, bits);
@@ -289,7 +289,7 @@ static uint64_t sun_end(lmb_traversal *t, uint32_t before, uint64_t pixels, uint
 {
     if (t->bounded) {
         t->sun_spent += (int32_t)(t->spent - before);
-        t->coarse += traversal_is_over(t);
+        t->coarse += (uint32_t)traversal_is_over(t);
         t->sun_asked = pixels;
         t->sun_dark = dark;
     }

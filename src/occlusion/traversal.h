@@ -85,7 +85,6 @@ static inline void traversal_bound(lmb_traversal *t)
     t->left = LMB_TRAVERSAL_FIRST;
     t->spent = t->end = t->coarse = 0;
     t->sun_spent = 0;
-    t->sun_boxes = 0;
     t->sun_asked = t->sun_dark = 0;
 }
 

@@ -250,17 +250,18 @@ static void draw_in_bounds(lmb_fill_context *context, const lmb_culling *culling
     draw_id_range(context, first_id, count, flags, stats);
 }
 
-enum { STRIP_BYTES = 1 << 18, PIXELS_A_SETUP = 128 };
+enum { STRIP_BYTES = 1 << 18, MIN_PIXELS_A_SETUP = 128 };
 
 /* Rows of tiles in a strip. A strip is cleared and drawn while its surfaces are in the second-level cache. Each strip
  * sets up all triangles again, so only few triangles are drawn in strips. */
-static int32_t strip_rows(const lmb_target *target, uint32_t count)
+static int32_t strip_rows(const lmb_target *target, const lmb_scene *scene, uint32_t count)
 {
+    const uint32_t there = lmb_scene_triangles(scene), triangles = count < there ? count : there;
     const int64_t wide = target->depth.width, high = target->depth.height,
                   bytes = wide * (target->id.data != NULL ? 8 : 4);
     const int32_t all = (target->depth.height + LMB_TILE - 1) / LMB_TILE;
     const int32_t rows = maxi((int32_t)(STRIP_BYTES / (bytes * LMB_TILE)), 1), strips = (all + rows - 1) / rows;
-    return (int64_t)strips * count <= wide * high / PIXELS_A_SETUP ? rows : all;
+    return (int64_t)strips * triangles <= wide * high / MIN_PIXELS_A_SETUP ? rows : all;
 }
 
 /* Resets a strip and its bounds. */
@@ -290,7 +291,7 @@ lmb_status lmb_draw_culled(const lmb_target *target, const lmb_kernels *kernels,
         return status;
     }
     const int32_t all = (target->depth.height + LMB_TILE - 1) / LMB_TILE;
-    const int32_t each = clear && stats == NULL ? strip_rows(target, count) : all;
+    const int32_t each = clear && stats == NULL ? strip_rows(target, scene, count) : all;
     for (int32_t row = 0; row < all; row += each) {
         lmb_target strip;
         lmb_target_rows(&strip, target, row, mini(each, all - row));

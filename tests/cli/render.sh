@@ -140,6 +140,14 @@ for show in full direct depth; do
 done
 status 0 render box.obj $few --eye 0,0,9 --target 0,9,20 -o away.pfm
 said "note: no surface is in the picture"
+# One of four samples meets this triangle, and only the left eye sees the other one.
+printf 'v -.199 -.06 0\nv -.079 -.06 0\nv -.139 .06 0\nf 1 2 3\n' >speck.obj
+printf 'v -2.2 -.3 0\nv -2.1 -.3 0\nv -2.1 .3 0\nf 1 2 3\n' >left.obj
+seen_at="--light sun:0,0,0:0,-.3,-1:2,2,2 --eye 0,0,4 --target 0,0,0"
+status 0 render speck.obj $seen_at --size 16x12 --samples 4 -o speck.pfm
+check "a surface in one sample is seen" lacks "no surface" err.txt
+status 0 render left.obj $seen_at --size 64x48 --stereo 0.3 -o left.pfm
+check "a surface in one eye's view is seen" lacks "no surface" err.txt
 status 0 render box.obj $few --show light-distance $away --light sun:0,0,0:0,-1,0:2,2,2 -o away.pfm
 check "a map has no such note" lacks "no surface" err.txt
 

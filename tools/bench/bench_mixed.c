@@ -39,6 +39,9 @@ static int parse(mix_options *o, const bench_line *line, report *r)
         return 0;
     }
     o->is_quiet = 1;
+    if (o->objects > 1) {
+        return report_fail(r, "--object: %d of them; give one", (int)o->objects);
+    }
     return o->object != NULL || report_fail(r, "--object: nothing is put into the photo");
 }
 

@@ -9,6 +9,7 @@
 #include "../../platform/host/host.h"
 #include "../picture/grey.h"
 #include "../picture/picture.h"
+#include "background.h"
 #include "budget.h"
 #include "render_draw.h"
 #include "render_finish.h"
@@ -235,13 +236,26 @@ static void tell_layers(const render_job *j)
                 "farthest are left out", (unsigned)over, (int)BLENDED_MAX_LAYERS);
 }
 
-/* Prints a note if the last view shows no surface: the picture is only background. */
+/* 1 if a sample of an eye shows a surface, or if memory is short. */
+static int shows_surface(const render_job *j)
+{
+    report unused = {""};
+    float *cover = background_cover(j, &unused);
+    int any = cover == NULL;
+    for (size_t i = 0; i < (size_t)j->linear.width * (size_t)j->linear.height && !any; ++i) {
+        any = cover[i] > 0.0f;
+    }
+    free(cover);
+    return any;
+}
+
+/* Prints a note if no sample shows a surface: the picture is only background. */
 static void tell_nothing(const render_job *j)
 {
     const lmb_surface *eye = &j->frame.eye.depth;
     const size_t n = (size_t)eye->width * (size_t)eye->height;
     const int shows_view = j->o.show <= LMB_SHOW_IRRADIANCE || j->o.show == SHOW_DEPTH || j->o.show == SHOW_ALBEDO ||
-                           j->o.show == SHOW_NORMAL || j->o.show == SHOW_EYE_DISTANCE;
+                           j->o.show == SHOW_NORMAL || j->o.show == SHOW_WIREFRAME || j->o.show == SHOW_EYE_DISTANCE;
     if (j->o.view.is_quiet || !shows_view || j->o.slice.count > 0 || j->o.sorted) {
         return;
     }
@@ -251,7 +265,7 @@ static void tell_nothing(const render_job *j)
         any = depth[i] > 0.0f;
     }
     free(depth);
-    report_note(any, "note: no surface is in the picture; --eye and --target set the view");
+    report_note(any || shows_surface(j), "note: no surface is in the picture; --eye and --target set the view");
 }
 
 static int run(render_job *j, report *r)
