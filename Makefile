@@ -566,7 +566,7 @@ examples: $(LIB) ## the programs of tests/examples compile, run and print the ex
 	@$(IN_SH) tests/scripts/examples.sh
 
 examples-tiny: ## the same in the tiny configuration
-	+@$(MAKE) examples CONFIG=tiny BUILD='$(BUILD)/plain' ONE_UNIT=1 CFLAGS="-O0 $(PLAIN_KERNELS)"
+	+@$(MAKE) examples CONFIG=tiny BUILD='$(BUILD)/plain' ONE_UNIT=1 CFLAGS="-O1 $(PLAIN_KERNELS)"
 
 own: $(LIB) $(TOOL) ## make run-NAME with your own programs, its error message, and main_scene.c on this machine
 	+@MAKE='$(MAKE)' BUILD='$(BUILD)' B='$(B)' TOOL='$(TOOL)' sh tests/scripts/own.sh
