@@ -99,11 +99,9 @@ lmb_status lmb_draw(const lmb_target *target, const lmb_kernels *kernels, const 
                     uint32_t first_id, uint32_t count, uint32_t flags, lmb_stats *stats);
 
 #if LMB_CULLING
-/* lmb_draw_culled: lmb_draw by the fastest way on one thread: the same pixels, and ids, to the byte. Triangles that are
- * hidden by the bounds are left out.
+/* lmb_draw_culled: lmb_draw without triangles that are hidden by the bounds: the same pixels, and ids, to the byte.
  *
- *   clear    1: first reset depths, ids and bounds of the window. Few triangles on a large window are then drawn in
- *            strips of rows that stay in the cache, unless `stats` is given.
+ *   clear    1: first reset depths, ids and bounds of the window.
  *   culling  `farthest` is read and raised. Backends of under eight lanes test only whole clusters; the others also
  *            test each tile of small triangles, while clusters are found hidden. May be NULL.
  * Returns LMB_OK or an error as lmb_draw; LMB_ERR_CAPACITY also if one of the culling's arrays is too short. After an

@@ -236,45 +236,28 @@ static lmb_status check_culling(const lmb_culling *culling, const lmb_target *ta
                : LMB_OK;
 }
 
-/* `context`: set for the window. `first_row`: the window's first row of tiles in the culling's window. */
-static void draw_in_bounds(lmb_fill_context *context, const lmb_culling *culling, int32_t first_row, uint32_t first_id,
-                           uint32_t count, uint32_t flags, lmb_stats *stats)
+/* `context`: set for the window. */
+static void draw_in_bounds(lmb_fill_context *context, const lmb_culling *culling, uint32_t first_id, uint32_t count,
+                           uint32_t flags, lmb_stats *stats)
 {
     const int has_bounds = culling != NULL && culling->farthest != NULL;
     context->culling = culling;
     context->place.clusters = NULL;
     context->place.asked = context->place.asks = 0;
-    context->window.farthest =
-        has_bounds ? culling->farthest + (ptrdiff_t)first_row * context->window.tiles_x : NULL;
+    context->window.farthest = has_bounds ? culling->farthest : NULL;
     context->window.bounds = has_bounds ? LMB_BOUNDS_RAISED : LMB_BOUNDS_IDLE;
     draw_id_range(context, first_id, count, flags, stats);
 }
 
-enum { STRIP_BYTES = 1 << 18, MIN_PIXELS_A_SETUP = 128 };
-
-/* Rows of tiles in a strip. A strip is cleared and drawn while its surfaces are in the second-level cache. Each strip
- * sets up all triangles again, so only few triangles are drawn in strips. */
-static int32_t strip_rows(const lmb_target *target, const lmb_scene *scene, uint32_t count)
+/* Resets the window and its bounds. */
+static void clear_window(const lmb_fill_context *c, const lmb_culling *culling)
 {
-    const uint32_t there = lmb_scene_triangles(scene), triangles = count < there ? count : there;
-    const int64_t wide = target->depth.width, high = target->depth.height,
-                  bytes = wide * (target->id.data != NULL ? 8 : 4);
-    const int32_t all = (target->depth.height + LMB_TILE - 1) / LMB_TILE;
-    const int32_t rows = maxi((int32_t)(STRIP_BYTES / (bytes * LMB_TILE)), 1), strips = (all + rows - 1) / rows;
-    return (int64_t)strips * triangles <= wide * high / MIN_PIXELS_A_SETUP ? rows : all;
-}
-
-/* Resets a strip and its bounds. */
-static void clear_strip(const lmb_fill_context *c, const lmb_culling *culling, int32_t first_row)
-{
-    const lmb_fill_window *w = &c->window;
     lmb_surface_clear(&c->target->depth);
     if (c->target->id.data != NULL) {
         lmb_surface_clear(&c->target->id);
     }
     if (culling != NULL && culling->farthest != NULL) {
-        memset(culling->farthest + (ptrdiff_t)first_row * w->tiles_x, 0,
-               (size_t)w->tiles_x * (size_t)w->tiles_y * sizeof *culling->farthest);
+        memset(culling->farthest, 0, (size_t)c->window.tiles_x * (size_t)c->window.tiles_y * sizeof *culling->farthest);
     }
 }
 
@@ -290,18 +273,10 @@ lmb_status lmb_draw_culled(const lmb_target *target, const lmb_kernels *kernels,
     if (status != LMB_OK) {
         return status;
     }
-    const int32_t all = (target->depth.height + LMB_TILE - 1) / LMB_TILE;
-    const int32_t each = clear && stats == NULL ? strip_rows(target, scene, count) : all;
-    for (int32_t row = 0; row < all; row += each) {
-        lmb_target strip;
-        lmb_target_rows(&strip, target, row, mini(each, all - row));
-        context.target = &strip;
-        context.window = lmb_target_window(&strip, view);
-        if (clear) {
-            clear_strip(&context, culling, row);
-        }
-        draw_in_bounds(&context, culling, row, first_id, count, flags, stats);
+    if (clear) {
+        clear_window(&context, culling);
     }
+    draw_in_bounds(&context, culling, first_id, count, flags, stats);
     return LMB_OK;
 }
 #endif

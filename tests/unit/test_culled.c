@@ -220,7 +220,7 @@ static lmb_target fresh_window(void *depth, void *id, int32_t layout, int32_t de
     return t;
 }
 
-/* With `clear`, lmb_draw_culled resets what was there: 40 triangles are drawn in strips, the whole scene is not. */
+/* With `clear`, lmb_draw_culled resets what was there. */
 static void test_fresh(void)
 {
     const size_t bytes = 4 * FRESH_FRAME * FRESH_FRAME;
