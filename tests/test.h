@@ -89,4 +89,16 @@ static inline const lmb_kernels *picked_kernels(void)
     return kernels;
 }
 
+/* The kernels that lmb_kernels_at(0 to 7) returned first. */
+static inline const lmb_kernels *listed_kernels(int32_t i)
+{
+    static const lmb_kernels *kernels[8];
+    static int is_asked;
+    for (int32_t k = 0; !is_asked && k < 8; ++k) {
+        kernels[k] = lmb_kernels_at(k);
+    }
+    is_asked = 1;
+    return 0 <= i && i < 8 ? kernels[i] : NULL;
+}
+
 #endif

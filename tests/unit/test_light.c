@@ -48,11 +48,11 @@ static void check_lanes(lmb_tile *tile, const lmb_view *v, const lmb_light *ligh
             doubtful |= (uint64_t)(answer == LMB_LIT_IN_DOUBT) << k;
         }
     }
-    for (int32_t m = 0; lmb_kernels_at(m) != NULL; ++m) {
+    for (int32_t m = 0; listed_kernels(m) != NULL; ++m) {
         uint64_t in_doubt = 0;
-        const uint64_t found = lmb_shadow_lit(&in_doubt, &query, lmb_kernels_at(m), tile, shown);
+        const uint64_t found = lmb_shadow_lit(&in_doubt, &query, listed_kernels(m), tile, shown);
         CHECK_MSG(found == lit && in_doubt == doubtful, "%s: %d of %d pixels at %d, %d",
-                  lmb_kernels_name(lmb_kernels_at(m)), (int)count_bits_64(found ^ lit),
+                  lmb_kernels_name(listed_kernels(m)), (int)count_bits_64(found ^ lit),
                   (int)count_bits_64(shown), (int)tile->x, (int)tile->y);
     }
 }
