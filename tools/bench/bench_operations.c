@@ -73,9 +73,37 @@ static inline lane counted_lane_gather_f32(const float *p, lanei at)
 #define lane_store_rows counted_lane_store_rows
 
 #define KERNEL(name) name##_counted
-#define BACKEND "counted"
-extern const lmb_kernels lmb_kernels_counted;
-#include "../../src/isa/all_kernels.inl"
+#include "../../src/lane/lane.h"
+
+#include "../../src/raster/setup.inl"
+#include "../../src/raster/fill.inl"
+#include "../../src/raster/fill_small.inl"
+#include "../../src/raster/fill_large.inl"
+#include "../../src/raster/culled.inl"
+#include "../../src/raster/resolve.inl"
+#include "../../src/raster/texture.inl"
+#include "../../src/bounce/gather.inl"
+#include "../../src/frame/encode.inl"
+
+/* Those that the raster workload and the gather measurement use. */
+static const lmb_kernels kernels_counted = {
+    .name = "counted",
+    .lanes = LANES,
+    .setup = setup_counted,
+    .fill_small = fill_small_counted,
+    .fill_large = fill_large_counted,
+    .culled_small = culled_small_counted,
+    .culled_large = culled_large_counted,
+    .culled_box = culled_box_counted,
+    .resolve_shown = resolve_shown_counted,
+    .resolve_slots = resolve_slots_counted,
+    .resolve_setup = resolve_setup_counted,
+    .resolve = resolve_counted,
+    .texture = texture_counted,
+    .gather = gather_counted,
+    .gather_near = gather_near_counted,
+    .encode = encode_counted,
+};
 
 static void begin(void)
 {
@@ -98,7 +126,7 @@ void bench_operations_gather(double counts[BENCH_OPS], const lmb_tile *tile, con
 const lmb_kernels *bench_operations_begin(void)
 {
     begin();
-    return &lmb_kernels_counted;
+    return &kernels_counted;
 }
 
 double bench_operations_end(double counts[BENCH_OPS])
