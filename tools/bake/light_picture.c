@@ -506,12 +506,13 @@ static void dilate(map *m, uint8_t round)
 
 /* --- the file ----------------------------------------------------------------------------------------------------- */
 
-static uint8_t code_of(float v)
+/* past[code]: the light from which on a larger code is nearer. */
+static uint8_t code_of(float v, const double past[255])
 {
     int low = 0, high = 255;
     while (low < high) {
         const int middle = (low + high) / 2;
-        if ((double)v > 0.5 * (srgb_decode(middle) + srgb_decode(middle + 1))) {
+        if ((double)v > past[middle]) {
             low = middle + 1;
         } else {
             high = middle;
@@ -525,12 +526,16 @@ static int encode(file_bytes *out, float *scale, const map *m)
 {
     const size_t floats = 3 * (size_t)m->side * (size_t)m->side;
     uint8_t *rgb = malloc(floats);
+    double past[255];
     *scale = 1e-20f;
+    for (int code = 0; code < 255; ++code) {
+        past[code] = 0.5 * (srgb_decode(code) + srgb_decode(code + 1));
+    }
     for (size_t i = 0; i < floats; ++i) {
         *scale = maxf(*scale, m->light[i]);
     }
     for (size_t i = 0; rgb != NULL && i < floats; ++i) {
-        rgb[i] = code_of(maxf(m->light[i], 0.0f) / *scale);
+        rgb[i] = code_of(maxf(m->light[i], 0.0f) / *scale, past);
     }
     const int ok = rgb != NULL ? png_encode(out, rgb, m->side, m->side, m->r)
                                : report_fail(m->r, "not enough memory for the lightmap");

@@ -177,8 +177,7 @@ static int picture_from_bitmap(picture *out, const bitmap *in)
 {
     size_t count = (size_t)in->width * (size_t)in->height;
     float linear_of[256];
-    for (int code = 0; code < 256; ++code)
-        linear_of[code] = (float)srgb_decode(code);
+    srgb_table(linear_of);
     out->linear = float_pixels(in->width, in->height, 3);
     out->codes = float_pixels(in->width, in->height, 4);
     if (!out->linear || !out->codes)

@@ -40,12 +40,8 @@ static int linear_photo(mix_frame *f, const char *path, report *r)
         return report_fail(r, "%s: out of memory", path);
     }
     const int channels = f->photo.light.channels;
-    float light_of[256]; /* by code */
-    for (int code = 0; code < 256; ++code) {
-        light_of[code] = (float)srgb_decode(code);
-    }
     for (size_t i = 0; i < 3 * pixels; ++i) {
-        f->light.pixels[i] = f->photo.codes.texels != NULL ? light_of[f->photo.codes.texels[i / 3 * 4 + i % 3]]
+        f->light.pixels[i] = f->photo.codes.texels != NULL ? f->photo.light_of[f->photo.codes.texels[i / 3 * 4 + i % 3]]
                                                            : f->photo.light.pixels[channels == 1 ? i / 3 : i];
     }
     return 1;

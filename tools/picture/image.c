@@ -23,3 +23,10 @@ void bitmap_free(bitmap *map)
 double srgb_curve(double code) { return code <= 0.04045 ? code / 12.92 : pow((code + 0.055) / 1.055, 2.4); }
 
 double srgb_decode(int code) { return srgb_curve(code / 255.0); }
+
+void srgb_table(float light_of[256])
+{
+    for (int code = 0; code < 256; ++code) {
+        light_of[code] = (float)srgb_decode(code);
+    }
+}

@@ -52,6 +52,9 @@ int ppm_encode(file_bytes *out, const uint8_t *rgb, int32_t width, int32_t heigh
 /* srgb_decode: linear light of an sRGB code 0 .. 255 (IEC 61966-2-1). */
 double srgb_decode(int code);
 
+/* srgb_table: srgb_decode of each code. */
+void srgb_table(float light_of[256]);
+
 /* srgb_curve: the same for a fractional code, 0 .. 1. */
 double srgb_curve(double code);
 

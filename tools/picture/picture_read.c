@@ -202,6 +202,7 @@ int picture_read(stored_picture *out, const uint8_t *data, size_t size, const ch
     out->width = out->codes.width;
     out->height = out->codes.height;
     out->channels = code_channels(kind, data, size, &out->codes);
+    srgb_table(out->light_of);
     return 1;
 }
 

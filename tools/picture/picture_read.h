@@ -11,6 +11,7 @@ typedef struct stored_picture {
     int32_t width, height;
     int32_t channels; /* 1 grey, 2 grey and alpha, 3 colour, 4 colour and alpha */
     bitmap codes;     /* texels NULL: the file stores light */
+    float light_of[256]; /* linear light of a code */
     image light;      /* pixels NULL: the file stores codes */
 } stored_picture;
 

@@ -46,7 +46,7 @@ static void pixel_at(float out[4], const stored_picture *p, size_t at)
         if (p->light.pixels != NULL) {
             out[c] = p->light.pixels[p->light.channels == 1 ? at : 3 * at + (size_t)c];
         } else {
-            out[c] = (float)srgb_decode(p->codes.texels[4 * at + (size_t)c]);
+            out[c] = p->light_of[p->codes.texels[4 * at + (size_t)c]];
         }
     }
     if (p->light.pixels == NULL) {
