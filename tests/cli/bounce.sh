@@ -112,7 +112,7 @@ status 0 render demo $live --backend scalar -o scalar.pfm
 check "back ends do not change live light" cmp live.pfm scalar.pfm
 # Later bounces and emitting surfaces use the same points.
 for of in demo emits.obj; do
-    again="--size 48x32 --exposure 0 --show indirect --bounces 3 --elements 2048 --shadow-map 512"
+    again="--size 40x30 --exposure 0 --show indirect --bounces 3 --elements 2048 --shadow-map 512"
     status 0 render $of $again --quality draft --gather live --threads 1 -o again.pfm
     status 0 render $of $again --quality draft --gather live --threads 3 --backend scalar -o again3.pfm
     check "threads and back ends do not change live bounces of $of" cmp again.pfm again3.pfm

@@ -22,7 +22,7 @@ if [ -e /dev/full ]; then
     full help render
     full help --man
     full render --help
-    full doctor
+    [ "${LMB_LONG:-0}" -le 1 ] || full doctor # nightly: this and --calibrate take seconds
     full render demo $few -o x.png
     full render demo $few -q -o -
     full render demo $few -q -o x.png --stats -
@@ -44,7 +44,7 @@ if [ -e /dev/full ]; then
     full lambent-bench raster fill-depth-pass --seconds 0.01
     full lambent-bench gather --backend scalar --seconds 0.01
     full lambent-bench hard mixed
-    full lambent-bench --calibrate --threads 1
+    [ "${LMB_LONG:-0}" -le 1 ] || full lambent-bench --calibrate --threads 1
     full lambent-bench box.obj --size 16x16 --shadow-map 64 --runs 1 --sweep tree=8 --breakdown 0 --cache kept
 else
     skip "a full disk: no /dev/full"

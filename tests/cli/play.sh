@@ -55,7 +55,7 @@ little=$(echo "$inside" | sed s/32x24/8x6/)
 status 0 play block.obj $little $baked --frames 3 --check 2 --stats play.json
 check "every second frame's error is told" sh -c 'test "$(grep -c "^frame [02] *trim 0\.[0-9]* *rmse 0\." "$1")" = 2' sh out.txt
 check "--stats of play has the whole frame" grep -q '"whole frame": {"clock": \[[0-9.]*, ' play.json
-status 0 play block.obj $little --quality best --gather full --frames 1 --check 1
+status 0 play block.obj $little --quality best --gather full --shadow-map 512 --frames 1 --check 1
 check "the best has no error against itself" grep -q "trim 0.0000  rmse 0.0000" out.txt
 status 0 play block.obj $inside $baked --frames 1 -q -o play_%02d.ppm
 check "--quiet is quiet" sh -c '! cat "$1" "$2" | grep -q .' sh out.txt err.txt

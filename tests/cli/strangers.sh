@@ -228,8 +228,8 @@ white
 late() {
     rm -rf late && mkdir late
     begun=$(date +%s)
-    status 1 "$@" --time-limit 0.3
-    said "--time-limit 0.3: the time is over"
+    status 1 "$@" --time-limit 0.1
+    said "--time-limit 0.1: the time is over"
     check "lambent $1: ends soon" test $(($(date +%s) - begun)) -lt 20
     check "lambent $1: leaves nothing" test -z "$(ls -A late)"
 }
@@ -272,7 +272,7 @@ filler=$!
 sleep 0.3
 for quiet in -q -v; do
     rm -rf late && mkdir late
-    "$TOOL" play demo --size 32x24 --quality draft --frames 100000 $quiet -o late/f%06d.png --time-limit 0.3 >&9 2>&9 &
+    "$TOOL" play demo --size 32x24 --quality draft --frames 100000 $quiet -o late/f%06d.png --time-limit 0.1 >&9 2>&9 &
     player=$!
     for second in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15; do kill -0 $player 2>/dev/null && sleep 1; done
     kill -9 $player 2>/dev/null

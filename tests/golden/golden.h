@@ -16,7 +16,7 @@ typedef struct golden_way {
     lmb_status (*render)(lmb_render *r, const lmb_frame *frame);
     lmb_status (*again)(lmb_render *r, const lmb_frame *frame); /* lmb_render_again and the rest of the frame */
     int32_t backend; /* case k: lmb_kernels_at(this + k, modulo their number); -1: all of them */
-    int32_t half;    /* 0: every case; 1 or 2: only those with even or odd numbers */
+    int32_t third;   /* 0: every case; 1 to 3: only every third one, from the first, second or third on */
 } golden_way;
 
 extern const golden_way golden_whole; /* each in one call */

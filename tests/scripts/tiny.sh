@@ -9,19 +9,19 @@ if ! missing=$(sh tests/scripts/tools.sh need arm-none-eabi-gcc qemu-system-arm 
     exit 1
 fi
 
-# Here only the pictures count, so this build is plain C in one unit; statue.sh, live.sh and `make examples-tiny`
-# share it.
+# Only the pictures count, so the library is one unit. The build for this machine is plain C, also in statue.sh, live.sh
+# and `make examples-tiny`.
 plain="-DLMB_HAVE_AVX512=0 -DLMB_HAVE_AVX2=0 -DLMB_HAVE_SSE2=0"
 make_here() { $MAKE "$@" PORT=host CONFIG=tiny BUILD="$BUILD/plain" ONE_UNIT=1 CFLAGS="-O1 $plain"; }
 here=$BUILD/plain/tiny
 check "the demo for this machine" make_here "$here/demo"
-check "the demo for a Cortex-M4F" $MAKE "$BUILD/cortex-m/tiny/demo" PORT=cortex-m CONFIG=tiny BUILD="$BUILD/cortex-m" \
-    CFLAGS=-Os LDFLAGS=
+make_there() { $MAKE "$@" PORT=cortex-m CONFIG=tiny BUILD="$BUILD/cortex-m" ONE_UNIT=1 CFLAGS=-Os LDFLAGS=; }
+check "the demo for a Cortex-M4F" make_there "$BUILD/cortex-m/tiny/demo"
 [ $failed -eq 0 ] || finish
 
 "$here/demo" >"$here/demo.out"
 check "exit status here: $?" test $? -eq 0
-$MAKE run-demo PORT=cortex-m CONFIG=tiny BUILD="$BUILD/cortex-m" CFLAGS=-Os LDFLAGS= >"$BUILD/cortex-m/tiny/demo.out"
+make_there run-demo >"$BUILD/cortex-m/tiny/demo.out"
 check "exit status on the Cortex-M4F: $?" test $? -eq 0
 
 echo "here:"
@@ -36,11 +36,10 @@ check "hashes differ: $is here, $there there" test -n "$is" -a "$is" = "$there"
 # A torus, with the bytes of the table of platform/README.md, and smaller pictures.
 torus_of() { sed -n 's/ bytes .*instructions [0-9]*//p' "$1"; }
 check "the torus for this machine" make_here "$here/torus_few"
-check "the torus for a Cortex-M4F" $MAKE "$BUILD/cortex-m/tiny/torus_few" PORT=cortex-m CONFIG=tiny BUILD="$BUILD/cortex-m" \
-    CFLAGS=-Os LDFLAGS=
+check "the torus for a Cortex-M4F" make_there "$BUILD/cortex-m/tiny/torus_few"
 [ $failed -eq 0 ] || finish
 "$here/torus_few" >"$here/torus_few.out"
-$MAKE run-torus_few PORT=cortex-m CONFIG=tiny BUILD="$BUILD/cortex-m" CFLAGS=-Os LDFLAGS= >"$BUILD/cortex-m/tiny/torus_few.out"
+make_there run-torus_few >"$BUILD/cortex-m/tiny/torus_few.out"
 sed 's/^/  /' "$BUILD/cortex-m/tiny/torus_few.out"
 check "the torus differs" test "$(torus_of "$here/torus_few.out")" = "$(torus_of "$BUILD/cortex-m/tiny/torus_few.out")"
 check "five pictures of the torus" test "$(torus_of "$BUILD/cortex-m/tiny/torus_few.out" | grep -c LMB_OK)" -eq 5
@@ -53,8 +52,7 @@ scene=$BUILD/cortex-m/tiny/packed_scene.c
 check "the demo is packed" "$TOOL" pack demo -o "$scene" --name scene_words -q
 make_here run-scene PACKED="$scene" >"$here/scene.out" 2>&1
 check "exit status of the packed scene here: $?" test $? -eq 0
-$MAKE run-scene PORT=cortex-m CONFIG=tiny BUILD="$BUILD/cortex-m" CFLAGS=-Os LDFLAGS= PACKED="$scene" \
-    >"$BUILD/cortex-m/tiny/scene.out" 2>&1
+make_there run-scene PACKED="$scene" >"$BUILD/cortex-m/tiny/scene.out" 2>&1
 check "exit status of the packed scene on the Cortex-M4F: $?" test $? -eq 0
 sed 's/^/  /' "$BUILD/cortex-m/tiny/scene.out"
 scene_of() { sed -n 's/^scene-160x120-rgb565 //p' "$1"; }
