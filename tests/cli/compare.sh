@@ -18,6 +18,12 @@ check "psnr relative to black has no value" grep -q '^psnr - (rgb, linear, peak 
 for name in white black; do { printf 'PF\n24 1\n-1\n'; repeated 36 "$(test $name = white && printf %s "$one$one" || printf '\\000\\000\\000\\000\\000\\000\\000\\000')"; } >wide_$name.pfm; done
 status 0 compare wide_white.pfm wide_black.pfm
 check "leak relative to black has no value" grep -q ' mean - leak -$' out.txt
+{ printf 'PF\n2 1\n-1\n'; printf '\121\131\004\151%.0s' 1 2 3 4 5 6; } >vast.pfm
+{ printf 'PF\n2 1\n-1\n'; printf '\314\274\214\053%.0s' 1 2 3 4 5 6; } >faint.pfm
+status 0 compare vast.pfm white.pfm
+check "a figure of 1e25 is printed" grep -q '^trim 1e+25 rmse 1e+25 ' out.txt
+status 0 compare faint.pfm black.pfm
+check "faint errors relative to black have no value" grep -qx 'trim - rmse - (n90 [0-9]*) e50 - e95 - e99 - worst - mean -' out.txt
 status 0 compare black.pfm white.pfm
 check "the worst pixel is the first of equal ones" grep -q ' worst 0.990[0-9]* at 0,0 mean 0.0000$' out.txt
 check "--max worst bounds it" sh -c '! "$1" compare white.pfm black.pfm --max worst=9' sh "$TOOL"

@@ -289,6 +289,16 @@ static int is_passed(const results *res, int key, double bound)
     }
 }
 
+/* Differences relative to a black truth have no meaning. */
+static void drop_relative(results *inout)
+{
+    metrics *m = &inout->figures;
+    double *const relative[] = {&m->trim, &m->rmse, &m->e50, &m->e95, &m->e99, &m->mean, &m->leak, &inout->worst};
+    for (int i = 0; m->truth_mean <= METRICS_BLACK && i < (int)(sizeof relative / sizeof *relative); ++i) {
+        *relative[i] = *relative[i] == 0.0 ? 0.0 : (double)NAN;
+    }
+}
+
 static int measure(results *out, const loaded *l, const options *o, report *r)
 {
     metrics_input in = linear_input(l);
@@ -300,6 +310,7 @@ static int measure(results *out, const loaded *l, const options *o, report *r)
         out->passed[k] = is_passed(out, k, o->bounds[k]);
         out->ok = out->ok && !out->passed[k];
     }
+    drop_relative(out);
     out->in_codes = l->test.codes && l->truth.codes;
     if (out->in_codes) {
         in.test = l->test.codes;
@@ -312,8 +323,7 @@ static int measure(results *out, const loaded *l, const options *o, report *r)
 
 /* -- output ------------------------------------------------------------------------------------------------------- */
 
-/* Values relative to a black truth have no meaning. */
-static int has_meaning(double v) { return fabs(v) < 1e20; }
+static int has_meaning(double v) { return isfinite(v); }
 
 static void text_number(FILE *out, const char *name, double v, int digits)
 {

@@ -86,7 +86,7 @@ static int gather(metrics *out, double *errors, const metrics_input *in, report 
                            (int)(first_bad / (size_t)in->width));
     out->truth_mean = truth_sum / (double)out->pixels;
     if (out->truth_mean == 0.0)
-        out->truth_mean = 1e-30;
+        out->truth_mean = METRICS_BLACK;
     out->mean = test_sum / (double)out->pixels / out->truth_mean;
     return 1;
 }
