@@ -39,6 +39,12 @@ cat >dark.gltf <<END
 {"bufferView":0,"byteOffset":36,"componentType":5126,"count":3,"type":"VEC3"}],
 "bufferViews":[{"buffer":0,"byteLength":72}]}
 END
+# The note about metals is only for pictures without lobes.
+sed 's/"metallicFactor":0/"metallicFactor":1/' dark.gltf >metal.gltf
+status 0 render metal.gltf --size 16x16 -o metal.png
+check "metal has a note" holds "reflect only with --glossy" err.txt
+status 0 render metal.gltf --size 16x16 --glossy -o metal.png
+check "with --glossy metal has none" lacks "only with --glossy" err.txt
 status 0 pack dark.ply -o dark.lmp
 status 0 bake dark.ply --to vertex-colours --elements 64 --receivers 64 --light point:0,0,2:0,0,-1:9,9,9 -o dark.glb
 for model in dark.ply faces.ply dark.obj dark.gltf dark.lmp; do

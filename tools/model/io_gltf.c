@@ -223,8 +223,9 @@ static void tell_left_out(gltf *g)
     build_note_count(g->b, "primitives with vertices left over, which are dropped", n->ragged);
     build_note_count(g->b, "primitives without a material, drawn white", n->bare);
     build_note_count(g->b, "BLEND materials, which light passes or does not by alpha 0.5", n->blends);
-    build_note_count_of(g->b, MODEL_NOTE_OPTION, "metallic materials, which reflect only with --glossy", n->metals);
-    build_note_count_of(g->b, MODEL_NOTE_OPTION,
+    build_note_count_of(g->b, MODEL_NOTE_OPTION | MODEL_NOTE_GLOSSY,
+                        "metallic materials, which reflect only with --glossy", n->metals);
+    build_note_count_of(g->b, MODEL_NOTE_OPTION | MODEL_NOTE_GLOSSY,
                         "metallic maps used by their mean without --glossy, 0 where one cannot be read",
                         n->metal_maps);
     build_note_count(g->b, "specular-glossiness maps used by their mean, or left out where one cannot be read",

@@ -102,8 +102,9 @@ typedef struct model_notes {
     uint32_t count;
 } model_notes;
 
-/* Kinds of notes: about an option that only `render` has; about motion that only `play` shows; others. */
-enum { MODEL_NOTE_PLAIN = 0, MODEL_NOTE_OPTION = 1, MODEL_NOTE_MOTION = 2 };
+/* Kinds of notes: about an option that only `render` has, and with GLOSSY one that --glossy answers; about motion that
+ * only `play` shows; others. */
+enum { MODEL_NOTE_PLAIN = 0, MODEL_NOTE_OPTION = 1, MODEL_NOTE_MOTION = 2, MODEL_NOTE_GLOSSY = 4 };
 
 /* Choices that the file leaves open. Zeros are the defaults. */
 enum { MODEL_COLOURS_SRGB = 0, MODEL_COLOURS_LINEAR };

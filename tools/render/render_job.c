@@ -136,7 +136,7 @@ int render_job_load(render_job *j, report *r)
 /* Called when only memory can still fail, because an error should be the only line. */
 static void tell_notes(const render_job *j)
 {
-    model_tell(&j->notes, j->o.scene, j->hides);
+    model_tell(&j->notes, j->o.scene, j->hides | (j->o.glossy ? MODEL_NOTE_GLOSSY : 0));
 }
 
 /* Returns whether light is emitted without lights. */
