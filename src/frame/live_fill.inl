@@ -116,7 +116,7 @@ static inline void corners_range(float range[3][2], const lmb_live_cell *p)
     }
 }
 
-/* As corners_light, if all corners agree fully with all pixels: these are explained. */
+/* As corners_light, when all corners agree fully with all pixels. It explains all asked pixels. */
 LANE_INLINE void corners_even(lmb_irradiance *inout, const lmb_live_cell *p, int k, uint32_t asked,
                               float range[3][2])
 {

@@ -146,7 +146,8 @@ static int compare(const checked *p, const char *path, const char *form, int is_
         return 0;
     }
     if (!is_quiet && m.truth_mean <= 1e-20) {
-        report_say("%s: %s, without light: no light bounces onto what the check's picture shows\n", path, form);
+        report_say("%s: %s, without light: no light bounces onto the surfaces in the picture of the check\n", path,
+                   form);
     } else if (!is_quiet) {
         report_say("%s: %s, read back and drawn: trim %.4f, rmse %.4f, mean %.4f of the light it was baked from\n",
                    path, form, m.trim, m.rmse, m.mean);

@@ -4,8 +4,9 @@
 
 #include "mix_job.h"
 
-/* mix_make_picture: draws a frame that was read and has planes; before the long work it prints notes about the object.
- * mix_lap: seconds since *from, which becomes now. mix_exposure: stops, of the picture. mix_tell_times: prints them. */
+/* mix_make_picture: draws a frame that was read and has planes. It prints notes about the object before the long work.
+ * mix_lap: seconds since *from, which becomes now. mix_exposure: exposure of the picture, in stops. mix_tell_times:
+ * prints the time of each step. */
 int mix_make_picture(mix_job *j, double *from, report *r);
 double mix_lap(double *from);
 float mix_exposure(const mix_job *j);

@@ -262,8 +262,8 @@ const option_row render_other_rows[] = {
     OPTION_THREADS_ROW(render_options, threads, "draw the picture"),
 #if !defined(OPTIONS_WITHOUT_HELP) /* the web page writes no files */
     {.name = "--stats", .value = "FILE.json", .kind = OPTION_TEXT, AT(stats), .file = OPTION_WRITES,
-     .help = HELP("time per stage, counts; bytes: memory for drawing; model_bytes: the model; loading_bytes: both the "
-                  "model and what reading it needs")},
+     .help = HELP("write time per stage, counts, and bytes: of memory for drawing (bytes), of the model (model_bytes), "
+                  "and of the model while it is read (loading_bytes)")},
 #endif
     OPTION_ONLY_HERE,
     OPTION_LOUDNESS(render_options, view.is_quiet, view.is_verbose,
@@ -275,8 +275,8 @@ const option_row render_other_rows[] = {
 static const option_row json_rows[] = {
     {.kind = OPTION_TITLE, .help = HELP("plan")},
     {.name = "--json", .kind = OPTION_FLAG, AT(json),
-     .help = HELP("print everything as JSON; bytes: of the stages; memory: also the state, and the scratch of "
-                  "further threads")},
+     .help = HELP("print everything as JSON, with the bytes of the stages (bytes), and those together with the state "
+                  "and the scratch of further threads (memory)")},
     {.kind = OPTION_END},
 };
 
