@@ -172,6 +172,23 @@ static void check_picture_sun(const char *path, int x, int y)
     remove(path);
 }
 
+/* A missing face is none, also if the struct has held another world. */
+static void check_missing_face(const char *face, const char *prefix)
+{
+    static float pixels[3 * 2 * 2];
+    const image p = {2, 2, 3, pixels};
+    lmb_world_pictures got;
+    world_pictures own;
+    report r = {""};
+    memset(&got, 0, sizeof got);
+    memset(&own, 0, sizeof own);
+    got.face[1] = got.alpha[1] = pixels;
+    CHECK(picture_write(face, &p, 0, PICTURE_CLIPPED, &r) && world_read_cube(&got, &own, prefix, &r));
+    CHECK(got.face[0] != NULL && got.face[1] == NULL && got.alpha[1] == NULL);
+    world_pictures_free(&own);
+    remove(face);
+}
+
 /* --- on surfaces -------------------------------------------------------------------------------------------------- */
 
 static void *tree_memory;
@@ -497,6 +514,9 @@ void test_sky(void)
     for (int i = 0; i < 60; i += tries(12, 1)) {
         check_picture_sun(folder_file(&place, "world.pfm"), i * 41 % ACROSS, 2 + i);
     }
+    char prefix[FOLDER_PATH];
+    snprintf(prefix, sizeof prefix, "%s", folder_file(&place, "part_"));
+    check_missing_face(folder_file(&place, "part_px.pfm"), prefix);
     folder_close(&place);
     const lmb_many_lights sky = white_sky();
     check_open(&sky);

@@ -272,6 +272,8 @@ static int read_six(lmb_world_pictures *out, world_pictures *own, const char *pr
 
 int world_read_cube(lmb_world_pictures *out, world_pictures *own, const char *path, report *r)
 {
+    memset(out->face, 0, sizeof out->face); /* of another world, which is freed */
+    memset(out->alpha, 0, sizeof out->alpha);
     out->face_size = 0;
     return is_there(path) ? read_one(out, own, path, r) : read_six(out, own, path, r);
 }
