@@ -165,6 +165,13 @@ white() {
     { printf 'PF\n1 1\n-1.0\n'; printf "$one$one$one"; } >facepx.pfm
 }
 
+# series: tone_03.pfm, tone_04.pfm: worlds of radiance 1 and 2; between.pfm: of 1.5.
+series() {
+    { printf 'PF\n1 6\n-1.0\n'; repeated 18 "$one"; } >tone_03.pfm
+    { printf 'PF\n1 6\n-1.0\n'; repeated 18 "$two"; } >tone_04.pfm
+    { printf 'PF\n1 6\n-1.0\n'; repeated 18 '\000\000\300\077'; } >between.pfm
+}
+
 # box.obj, of twelve triangles.
 box() {
     printf 'v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\nf 1 4 3 2\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nf 5 6 7 8\n' >box.obj

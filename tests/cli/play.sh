@@ -60,4 +60,72 @@ check "the best has no error against itself" grep -q "trim 0.0000  rmse 0.0000" 
 status 0 play block.obj $inside $baked --frames 1 -q -o play_%02d.ppm
 check "--quiet is quiet" sh -c '! cat "$1" "$2" | grep -q .' sh out.txt err.txt
 
+# Numbered files are a world that changes. A frame at a file is as `render` has it; between two files the world is
+# blended, and each frame is the same alone, with cuts, live light and baked light.
+series
+echo "0 camera 2,2,3 0,0,0" >still.txt
+seen="--eye 2,2,3 --target 0,0,0 --size 24x16 --shadow-map 64"
+rests="--path still.txt $seen"
+status 0 bake box.obj -o box.lmt --elements 256 --receivers 300
+for way in "--gather full --quality draft" "--gather live" "--transfer box.lmt" "--many-lights 4096 --gather full"; do
+    status 0 play box.obj $rests $way --world tone_%02d.pfm --world-every 2 --frames 4 -o tone%01d.pfm
+    for pair in "tone_03 tone0" "between tone1" "tone_04 tone2" "tone_04 tone3"; do
+        set -- $pair
+        status 0 render box.obj $seen $way --world "$1.pfm" -o rendered.pfm
+        check "$way: in frame $2 the world is $1" cmp "$2.pfm" rendered.pfm
+    done
+    status 0 play box.obj $rests $way --world tone_%02d.pfm --world-every 2 --from 1 --frames 1 -o alone%01d.pfm
+    check "$way: a frame of a changing world is the same alone" cmp tone1.pfm alone1.pfm
+done
+status 0 play box.obj $rests --quality draft --world tone_%02d.pfm --world-every 2 --frames 4
+check "that the world stays is told" holds "tone_%02d.pfm has 2 files: from frame 2 on the world stays" err.txt
+# sun ROW COLUMN: a world of radiance 1 with a lamp in one of 32 x 192 texels. Rows count from the top, unlike in a PFM.
+row=$one$one$one$one; row=$row$row$row; row=$row$row$row$row$row$row$row$row
+sun() {
+    printf 'PF\n32 192\n-1.0\n'
+    i=0
+    while [ $i -lt 192 ]; do
+        if [ $i -eq $((191 - $1)) ]; then
+            printf "$row" | head -c $((12 * $2))
+            printf '\000\000\172\105\000\000\172\105\000\000\172\105'
+            printf "$row" | tail -c $((372 - 12 * $2))
+        else
+            printf "$row"
+        fi
+        i=$((i + 1))
+    done
+}
+sun 80 8 >near_0.pfm
+sun 82 10 >near_1.pfm
+sun 80 8 >far_0.pfm
+sun 92 26 >far_1.pfm
+for pair in "near 1" "far 2"; do
+    set -- $pair
+    status 0 play box.obj $rests --quality draft --world "$1_%01d.pfm" --world-every 2 --from 1 --frames 1 -o "$1%01d.pfm"
+    check "between two $1 suns there are $2" grep -q "triangles, $2 lights" out.txt
+done
+status 0 play box.obj $rests --quality draft --world far_%01d.pfm --frames 2 -o other%01d.pfm
+status 0 render box.obj $seen --quality draft --world far_1.pfm -o rendered.pfm
+check "the shadows are those of the other sun" cmp other1.pfm rendered.pfm
+# The sun of another file counts beside animations, too.
+moving
+sun 136 8 >front_0.pfm
+sun 130 28 >front_1.pfm
+n=0
+for world in front_%01d front_1; do
+    status 0 play moving.gltf --size 24x16 --quality draft --world "$world.pfm" --fps 2 --from 1 --frames 1 -o "${world%_*}$((n += 1))_%02d.pfm"
+done
+check "an animation leaves the suns of a series alone" cmp front1_01.pfm front2_01.pfm
+status 2 play demo --world-every 2
+said "--world-every needs a numbered --world"
+status 2 play demo --world tone_%02d.pfm -o tone_%02d.pfm
+said "tone_%02d.pfm: both --world and -o"
+status 1 play demo --world none_%02d.pfm
+said "none_%02d.pfm: no file of this pattern with a number from 0 to 9999"
+echo "0 light:0 0,1,0 0,0,0" >sun.txt
+status 1 play box.obj --world near_%01d.pfm --path sun.txt --frames 1
+said "light:0 is the sun of a numbered --world, which moves by itself"
+status 2 play box.obj $rests --world tone_%02d.pfm --from 4 --frames 1 -o tone_0%01d.pfm
+said "tone_04.pfm: cannot be written: it is read by the same command"
+
 finish

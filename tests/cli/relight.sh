@@ -68,6 +68,40 @@ check "no picture is drawn where one of them cannot be written" test ! -e bad_00
 rm -f bad_001.pfm
 status 2 $field -o bad_%04d.ppm
 check "a pattern wants a path" holds 'numbers pictures of a --path' err.txt
+# Numbered files are a world that changes; between two of them it is blended, also while an object rests.
+series
+printf '0,0,0\n0,0,0\n0,0,0\n0,0,0\n' >rests.txt
+printf '0,0,0\n' >one.txt
+changes="relight --object demo --size 16x8 --eye 0,1,6 --target 0,1,0"
+status 0 $changes --world tone_%02d.pfm --world-every 2 --path rests.txt -o change_%01d.pfm
+check "light is new in a changed world, and kept in the last one" grep -q '^light computed 3 times, kept 1 times$' out.txt
+status 0 $changes --world tone_%02d.pfm --path rests.txt -o each_%01d.pfm
+for pair in "tone_03 change_0" "between change_1" "tone_04 change_2" "tone_04 change_3" "tone_04 each_1"; do
+    set -- $pair
+    status 0 $changes --world "$1.pfm" --path one.txt -o alone_%01d.pfm
+    check "in picture $2 the world is $1" sh -c '"$1" compare "$2" "$3" --max rmse=0.00001' sh "$TOOL" "$2.pfm" alone_0.pfm
+done
+status 2 $changes --world tone_%02d.pfm -o bad.pfm
+said "--world tone_%02d.pfm: numbered files need the pictures of a --path"
+status 2 $changes --world tone_03.pfm --world-every 2 --path rests.txt -o bad.pfm
+said "--world-every needs a numbered --world"
+status 2 $changes --world tone_%02d.pfm --world between.pfm --world-centre 0,0,0 --world-centre 1,0,0 --path rests.txt -o bad.pfm
+said "numbered files are one world that changes; give no other"
+status 2 $changes --world tone_%02d.pfm --path rests.txt -o tone_%02d.pfm
+said "tone_%02d.pfm: both --world and -o"
+status 1 $changes --world none_%02d.pfm --path rests.txt -o bad.pfm
+said "none_%02d.pfm: no file of this pattern with a number from 0 to 9999"
+printf '0,0,0\n0,0,0 between.pfm\n' >named.txt
+status 1 $changes --world tone_%02d.pfm --path named.txt -o bad.pfm
+said "named.txt: names a world, and a numbered --world already changes"
+{ printf 'PF\n2 12\n-1.0\n'; repeated 72 "$two"; } >tone_05.pfm
+tool $changes --world tone_%02d.pfm --world-every 1 --path rests.txt -o change_%01d.pfm >out.txt 2>err.txt
+check "a series may have files of other sizes, if none is blended" test $? -eq 0
+mv tone_05.pfm tone_02.pfm
+! tool $changes --world tone_%02d.pfm --world-every 2 --path rests.txt -q -o change_%01d.pfm >out.txt 2>err.txt && pass ||
+    fail "a blend of two sizes ends with an error"
+said "tone_03.pfm: faces of 1 pixels, and tone_02.pfm has 2; files of one series have one size"
+rm -f tone_02.pfm
 printf '0,0,0\n1,2\n' >path.txt
 status 1 $field --path path.txt -o bad.ppm
 check "a path's error names its line" holds 'path.txt:2: `1,2` is not X,Y,Z' err.txt

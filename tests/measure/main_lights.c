@@ -165,7 +165,7 @@ static int draw(drawn *out, const render_options *o, report *r)
         const lmb_status status = workers_reuse(&j.workers, &stage, j.render, &j.frame);
         ok = status == LMB_OK || report_fail(r, "drawing stopped: %s", lmb_status_name(status));
     }
-    ok = ok && play_check_frame(&out->error, &check, &j, r);
+    ok = ok && play_check_frame(&out->error, &check, &j, 0, r);
     play_check_free(&check);
     render_job_free(&j);
     return ok;

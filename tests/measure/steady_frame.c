@@ -65,7 +65,7 @@ int steady_draw(steady_frame *out, steady_stage *s, report *r)
         return report_fail(r, "drawing stopped: %s", lmb_status_name(status));
     }
     if (out->best != NULL) {
-        if (!play_check_frame(&unused, &s->check, j, r)) {
+        if (!play_check_frame(&unused, &s->check, j, 0, r)) {
             return 0;
         }
         memcpy(out->best, s->check.best.linear.pixels, bytes);

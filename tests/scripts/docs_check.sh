@@ -59,6 +59,7 @@ padding=$(((4 - bytes % 4) % 4))
 { printf 'glTF\002\000\000\000'; number $((20 + bytes + padding)); number $((bytes + padding)); printf 'JSON'; cat scene.gltf; printf '%*s' $padding ''; } >scene.glb
 cp scene.glb city.glb
 "$lambent" render demo --size 64x32 --world none -o sky.hdr >/dev/null 2>&1
+cp sky.hdr sky_000.hdr
 cd - >/dev/null || exit 1
 
 # A command ends at two blanks or at the end of the line. Only one of two bakes with default settings runs, because each

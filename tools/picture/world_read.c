@@ -270,6 +270,16 @@ static int read_six(lmb_world_pictures *out, world_pictures *own, const char *pr
 
 /* --- all ---------------------------------------------------------------------------------------------------------- */
 
+int world_is_there(const char *path)
+{
+    char face[4096];
+    int any = is_there(path);
+    for (int i = 0; i < 6 && !any; ++i) {
+        any = find_face(face, sizeof face, path, i);
+    }
+    return any;
+}
+
 int world_read_cube(lmb_world_pictures *out, world_pictures *own, const char *path, report *r)
 {
     memset(out->face, 0, sizeof out->face); /* of another world, which is freed */

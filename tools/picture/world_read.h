@@ -22,6 +22,9 @@ typedef struct world_pictures {
  * Returns 1, or 0 with `r` set. */
 int world_read_cube(lmb_world_pictures *out, world_pictures *own, const char *path, report *r);
 
+/* world_is_there: whether there is a file `path`, or one of six. */
+int world_is_there(const char *path);
+
 /* world_read_ground: an image from above, rows towards +z; transparent pixels are blank. Sets the ground members of
  * `out`. */
 int world_read_ground(lmb_world_pictures *out, world_pictures *own, const char *path, report *r);

@@ -3,6 +3,25 @@
 
 #include <string.h>
 
+/* Memory of the world stays owned by the job. */
+static void take_world(render_job *b, const render_job *j)
+{
+    b->many_lights.tree = j->many_lights.tree;
+    b->gathers_sky = j->gathers_sky;
+    b->around = j->around;
+}
+
+/* Sets the frame up for another world. */
+static int change_world(play_check *c, const render_job *j, report *r)
+{
+    take_world(&c->best, j);
+    if (!render_job_refit(&c->best, r)) {
+        return 0;
+    }
+    memset(c->best.render, 0, sizeof *c->best.render);
+    return 1;
+}
+
 /* Copies the job's options, except those that --quality sets. */
 static int make(play_check *c, const render_job *j, report *r)
 {
@@ -19,15 +38,13 @@ static int make(play_check *c, const render_job *j, report *r)
     b->scene = j->scene;
     b->middle = j->middle;
     b->eyes = 1;
-    b->many_lights.tree = j->many_lights.tree;
-    b->gathers_sky = j->gathers_sky;
-    b->around = j->around; /* memory stays owned by the job */
+    take_world(b, j);
     b->workers.threads = j->workers.threads;
     c->is_made = 1;
     return render_job_take(b, r);
 }
 
-int play_check_frame(metrics *out, play_check *c, const render_job *j, report *r)
+int play_check_frame(metrics *out, play_check *c, const render_job *j, uint32_t worlds, report *r)
 {
     render_job *b = &c->best;
     metrics_input in;
@@ -37,6 +54,10 @@ int play_check_frame(metrics *out, play_check *c, const render_job *j, report *r
     }
     b->scene = j->scene;
     b->middle = j->middle;
+    if (c->worlds != worlds && !change_world(c, j, r)) {
+        return 0;
+    }
+    c->worlds = worlds;
     render_job_eye(b, &b->frame, &b->linear, 0);
     const lmb_status status = workers_reuse(&b->workers, &stage, b->render, &b->frame);
     if (status != LMB_OK) {

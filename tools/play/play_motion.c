@@ -349,6 +349,10 @@ static int check_track(const play_motion *m, const key_track *t, report *r)
         return report_fail(r, "%s: line %u: light:%u is a sun, which has a direction alone; give its keys a target",
                            m->options->path, (unsigned)t->line, (unsigned)t->index);
     }
+    if (t->what == KEY_LIGHT && m->job->o.world_changes && t->index >= m->job->own_lights) {
+        return report_fail(r, "%s: line %u: light:%u is the sun of a numbered --world, which moves by itself",
+                           m->options->path, (unsigned)t->line, (unsigned)t->index);
+    }
     return t->what != KEY_OBJECT || may_move(m, t->index) ||
            report_fail(r,
                        "%s: line %u: object:%u stands still in what was baked; bake it with --moving %u, or leave out "
@@ -470,7 +474,7 @@ static int take_poses(play_motion *m, report *r)
     const size_t own_lights = loaded->scene.light_count * sizeof *m->light; /* may be more, and are posed too */
     const size_t instances = m->job->scene.instance_count * sizeof *m->instance;
     const size_t cameras = loaded->camera_count * sizeof *m->camera;
-    m->light_posed = malloc((lights > own_lights ? lights : own_lights) + 1);
+    m->light_posed = malloc((lights > own_lights ? lights : own_lights) + RENDER_SUNS * sizeof *m->light);
     m->instance_posed = malloc(instances + 1);
     m->camera = malloc(cameras + 1);
     if (m->light_posed == NULL || m->instance_posed == NULL || m->camera == NULL) {
@@ -491,11 +495,11 @@ static int take(play_motion *m, report *r)
 {
     const lmb_scene *s = &m->job->scene;
     const size_t lights = s->light_count * sizeof *m->light, instances = s->instance_count * sizeof *m->instance;
-    m->light = malloc(lights + 1);
-    m->light_at_rest = malloc(lights + 1);
+    m->light = malloc(lights + RENDER_SUNS * sizeof *m->light);
+    m->light_at_rest = malloc(lights + RENDER_SUNS * sizeof *m->light);
     m->instance = malloc(instances + 1);
     m->instance_at_rest = malloc(instances + 1);
-    m->radius = calloc(s->light_count + 1, sizeof *m->radius);
+    m->radius = calloc(s->light_count + RENDER_SUNS, sizeof *m->radius);
     if (m->light == NULL || m->light_at_rest == NULL || m->instance == NULL || m->instance_at_rest == NULL ||
         m->radius == NULL) {
         return report_fail(r, "not enough memory for what moves");
@@ -528,6 +532,17 @@ int play_motion_make(play_motion *m, report *r)
     j->scene.lights = m->light;
     j->scene.instances = m->instance;
     return m->path.key_count > 0 ? check_path(m, r) : m->is_animated || find_room(m, r);
+}
+
+void play_motion_suns(play_motion *m)
+{
+    for (uint32_t i = m->job->own_lights; i < m->job->scene.light_count; ++i) {
+        m->light_at_rest[i] = m->light[i];
+        m->radius[i] = 0.0f;
+        if (m->light_posed != NULL) {
+            m->light_posed[i] = m->light[i];
+        }
+    }
 }
 
 double play_motion_end(const play_motion *m)

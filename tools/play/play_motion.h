@@ -34,6 +34,9 @@ int play_motion_read(play_motion *out, const play_options *o, report *r);
 int play_motion_find(play_motion *inout, render_job *j, report *r);
 int play_motion_make(play_motion *inout, report *r);
 int play_motion_set(play_motion *m, int32_t k, report *r);
+
+/* play_motion_suns: call it after the suns of the world in `light` have changed. */
+void play_motion_suns(play_motion *m);
 void play_motion_free(play_motion *m);
 
 /* Time of the last key of the path or the animations, s; 0: neither moves anything. */

@@ -40,6 +40,10 @@ static const option_row play_rows[] = {
      .help = "the first frame's number (default 0); the frame has the same bytes as in a longer run"},
     {.name = "--fps", .value = "F", .kind = OPTION_ABOVE, AT(fps), .low = 0.0, .high = 1e5,
      .help = "frames per second of the path: frame k is at k / F seconds (default 30)"},
+    {.name = "--world-every", .value = "N", .kind = OPTION_INT, AT(world_every), .low = 1, .high = MOST,
+     .help = "with a numbered --world, as sky_%03d.hdr: frames from one file to the next, between which the world is "
+             "blended (default 1: a file a frame). Numbers begin with the lowest that exists, at frame 0; the last "
+             "file stays. Suns within 20 degrees of each other move"},
     {.name = "--check", .value = "K", .kind = OPTION_INT, AT(check), .low = 1, .high = MOST,
      .help = "each Kth frame's error against the same frame by --quality best and --gather full, as in `lambent "
              "compare`"},
@@ -69,6 +73,13 @@ static int check_together(const play_options *o, report *r)
     }
     if (o->render.show >= SHOW_DEPTH) {
         return report_fail(r, "--show: frames are of light: full, direct, indirect or irradiance");
+    }
+    const int is_series = o->render.world != NULL && frame_digits(o->render.world) > 0;
+    if (!is_series && o->world_every > 0) {
+        return report_fail(r, "--world-every needs a numbered --world, as sky_%%03d.hdr");
+    }
+    if (is_series && o->render.out != NULL && strcmp(o->render.out, o->render.world) == 0) {
+        return report_fail(r, "%s: both --world and -o; the frames would join the world", o->render.out);
     }
     if (o->check > 0 && o->render.show == LMB_SHOW_DIRECT) {
         return report_fail(r, "--check: errors are of bounced light; --show full, indirect or irradiance");

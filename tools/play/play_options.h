@@ -8,7 +8,7 @@ typedef struct play_options {
     render_options render; /* first, because its rows store into it. `out`: the pattern */
     int32_t move;          /* KEY_*, bits */
     const char *path;
-    int32_t frames, from, check;
+    int32_t frames, from, check, world_every;
     float fps;
 } play_options;
 

@@ -16,6 +16,7 @@
 #include "play_options.h"
 #include "play_slice.h"
 #include "play_times.h"
+#include "play_world.h"
 
 enum { NAME = SLICE_NAME };
 
@@ -24,6 +25,7 @@ typedef struct play {
     play_options o;
     render_job job;
     play_motion motion;
+    play_world world;
     play_times times;
     play_check check;
     text_buffer said; /* printed to stdout at the end */
@@ -31,13 +33,17 @@ typedef struct play {
     float exposure_ev;
 } play;
 
+/* Frames per file of a numbered world. */
+static int32_t every_of(const play *p) { return p->o.world_every > 0 ? p->o.world_every : 1; }
+
 /* --- a frame ------------------------------------------------------------------------------------------------------ */
 
 static int draw(play *p, int32_t k, play_time *took, report *r)
 {
     render_job *j = &p->job;
     int32_t stage;
-    if (!play_motion_set(&p->motion, k, r)) {
+    if (!play_world_set(&p->world, j, &p->motion, k, every_of(p), r) ||
+        !play_motion_set(&p->motion, k, r)) {
         return 0;
     }
     render_job_eye(j, &j->frame, &j->linear, 0);
@@ -104,7 +110,7 @@ static int check_frame(play *p, int32_t k, report *r)
     if (p->o.check == 0 || k % p->o.check != 0) {
         return 1;
     }
-    if (!play_check_frame(&m, &p->check, &p->job, r)) {
+    if (!play_check_frame(&m, &p->check, &p->job, p->world.changes, r)) {
         return 0;
     }
     text_buffer_add(&p->said, "frame %-5d  trim %.4f  rmse %.4f  mean %.4f\n", (int)k, m.trim, m.rmse, m.mean);
@@ -147,7 +153,13 @@ static void tell_end(const play *p)
 {
     const double end = play_motion_end(&p->motion);
     const double last = (double)(p->o.from + p->o.frames - 1) / (double)p->o.fps;
-    report_note(p->o.render.view.is_quiet || !play_motion_is_over(&p->motion, last),
+    const double stays = (double)(p->world.series.count - 1) * (double)every_of(p);
+    const int is_changed = (double)(p->o.from + p->o.frames - 1) > stays;
+    report_note(p->o.render.view.is_quiet || p->world.series.count == 0 || !is_changed,
+                "note: %s has %d files: from frame %.0f on the world stays", p->world.series.pattern,
+                (int)p->world.series.count, stays);
+    report_note(p->o.render.view.is_quiet || !play_motion_is_over(&p->motion, last) ||
+                    (p->world.series.count > 0 && !is_changed),
                 "note: %s ends at %.3g s, the frames at %.3g s: from there on nothing moves",
                 p->o.path != NULL ? p->o.path : p->o.render.scene, end, last);
 }
@@ -231,11 +243,14 @@ int verb_play(int argc, char **argv)
         return options_answer(asked, &play_table, &r);
     }
     progress_begin(p.o.render.view.is_quiet, "play");
-    const int ok = render_options_job(&p.o.render, &play_table, argc, argv, &r) && run(&p, &r);
+    const int ok = play_world_begin(&p.world, &p.o.render, &r) &&
+                   render_options_job(&p.o.render, &play_table, argc, argv, &r) &&
+                   play_world_hash(&p.world, &p.o.render, &r) && run(&p, &r);
     free(p.made.data);
     play_check_free(&p.check);
     play_times_free(&p.times);
     play_motion_free(&p.motion);
+    play_world_free(&p.world);
     render_job_free(&p.job);
     text_buffer_free(&p.said);
     return ok ? 0 : report_end(&r, "play", 1);

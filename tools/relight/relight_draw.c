@@ -311,16 +311,23 @@ static int write(stage *s, const char *path, report *r)
 }
 
 #if !defined(OPTIONS_WITHOUT_HELP) /* the web page has no paths */
-/* A path may name another world, for example if clouds move. The new light is not blended with the old. [S20 S28] */
-static int change_world(stage *s, const char *name, report *r)
+/* A path may name another world, or the world may be a series, for example if clouds move. The light in the new world
+ * is not blended with that in the old one. [S20 S28] */
+static int change_world(stage *s, int32_t i, report *r)
 {
-    if (!relight_light_change(s->light, s->o, name, r)) {
+    const char *name = s->path.world[i];
+    int changed = name != NULL;
+    if (s->light->series.count > 0 ? !relight_light_next(s->light, &changed, s->o, i, r)
+                                   : changed && !relight_light_change(s->light, s->o, name, r)) {
         return 0;
     }
+    if (!changed) {
+        return 1;
+    }
     ++s->worlds;
-    for (uint32_t i = 0; i < s->figures.owners; ++i) {
-        way_free(&s->ways[i]);
-        memset(&s->ways[i], 0, sizeof s->ways[i]);
+    for (uint32_t k = 0; k < s->figures.owners; ++k) {
+        way_free(&s->ways[k]);
+        memset(&s->ways[k], 0, sizeof s->ways[k]);
     }
     return 1;
 }
@@ -331,7 +338,7 @@ static int draw_place(void *user, int32_t i, const char *name, report *r)
 {
     stage *s = user;
 #if !defined(OPTIONS_WITHOUT_HELP)
-    if (s->path.world[i] != NULL && !change_world(s, s->path.world[i], r)) {
+    if (!change_world(s, i, r)) {
         return 0;
     }
 #endif
@@ -489,6 +496,9 @@ static int check_worlds(const stage *s, report *r)
         if (name != NULL && s->o->worlds > 1) {
             return report_fail(r, "%s: names a world, which needs a single --world; %d are given", s->o->path,
                                (int)s->o->worlds);
+        }
+        if (name != NULL && s->light->series.count > 0) {
+            return report_fail(r, "%s: names a world, and a numbered --world already changes", s->o->path);
         }
         if (name != NULL && !can_be_read(name, r)) {
             return 0;

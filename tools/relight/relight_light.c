@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../common/frame_name.h"
 #include "../demo/demo_field.h"
 #include "../picture/picture.h"
 
@@ -26,19 +27,30 @@ static double dark_share(const lmb_world_pictures *p)
     return (double)dark / (6.0 * (double)texels);
 }
 
+static int read_pictures(relight_light *w, relight_options *o, const char *name, report *r)
+{
+#if !defined(OPTIONS_WITHOUT_HELP)
+    if (w->series.count > 0) {
+        return world_series_read(&o->place, &w->pictures, &w->series, w->moment, r);
+    }
+#endif
+    return strcmp(name, "demo") == 0 ? demo_field_pictures(&o->place, &w->pictures, r)
+                                     : world_read_cube(&o->place, &w->pictures, name, r);
+}
+
 /* Reads a world. All worlds share the memory for the pictures of one. */
 static int make_world(relight_light *w, relight_options *o, int32_t i, report *r)
 {
     const char *name = o->world[i];
     o->place.centre = o->centre[i];
     world_pictures_free(&w->pictures);
-    if (!(strcmp(name, "demo") == 0 ? demo_field_pictures(&o->place, &w->pictures, r)
-                                    : world_read_cube(&o->place, &w->pictures, name, r))) {
+    if (!read_pictures(w, o, name, r)) {
         return 0;
     }
     world_tell_not_finite(&w->pictures, name, o->view.is_quiet);
-    const double dark = strcmp(name, "demo") == 0 || o->view.is_quiet ? 0.0 : dark_share(&o->place);
-    report_note(o->view.is_quiet || dark < DARK, "note: %s: %.0f %% of it is black or blank: no light comes from there",
+    const int is_told = o->view.is_quiet || w->moment.index > 0 || w->moment.share > 0.0f; /* once in a series */
+    const double dark = strcmp(name, "demo") == 0 || is_told ? 0.0 : dark_share(&o->place);
+    report_note(is_told || dark < DARK, "note: %s: %.0f %% of it is black or blank: no light comes from there",
                 name, 100.0 * dark);
     if (o->ground != NULL && !world_read_ground(&o->place, &w->pictures, o->ground, r)) {
         return 0;
@@ -74,6 +86,11 @@ static int make_blur(relight_light *w, int32_t terms, report *r)
 
 int relight_light_make(relight_light *w, relight_options *o, report *r)
 {
+#if !defined(OPTIONS_WITHOUT_HELP) /* the web page draws one picture */
+    if (frame_digits(o->world[0]) > 0 && !world_series_find(&w->series, o->world[0], r)) {
+        return 0;
+    }
+#endif
     for (int32_t i = 0; i < o->worlds; ++i) {
         if (!make_world(w, o, i, r)) {
             return 0;
@@ -95,6 +112,16 @@ int relight_light_change(relight_light *w, relight_options *o, const char *name,
     o->world[0] = name;
     return make_world(w, o, 0, r);
 }
+
+#if !defined(OPTIONS_WITHOUT_HELP)
+int relight_light_next(relight_light *w, int *changed, relight_options *o, int32_t k, report *r)
+{
+    const world_moment at = world_series_at(&w->series, k, o->world_every > 0 ? o->world_every : 1);
+    *changed = at.index != w->moment.index || at.share != w->moment.share;
+    w->moment = at;
+    return !*changed || relight_light_change(w, o, o->world[0], r);
+}
+#endif
 
 /* --- per place ---------------------------------------------------------------------------------------------------- */
 

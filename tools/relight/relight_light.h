@@ -2,12 +2,14 @@
 #ifndef RELIGHT_LIGHT_H
 #define RELIGHT_LIGHT_H
 
-#include "../picture/world_read.h"
+#include "../picture/world_series.h"
 #include "relight_options.h"
 
 /* All working memory; large, so allocate one. Zero it before use. */
 typedef struct relight_light {
     world_pictures pictures;
+    world_series series; /* of a numbered --world */
+    world_moment moment; /* of its series */
     lmb_world world[RELIGHT_WORLDS];
     void *world_memory[RELIGHT_WORLDS], *table_memory[3], *blur_memory;
     lmb_probe_table table[3]; /* of the map, half the map and a quarter */
@@ -25,6 +27,8 @@ typedef struct relight_light {
 int relight_light_make(relight_light *out, relight_options *o, report *r);
 /* relight_light_change: replaces the only world, seen from the same centre. Returns 1, or 0 with `r` set. [S20 S28] */
 int relight_light_change(relight_light *inout, relight_options *o, const char *name, report *r);
+/* relight_light_next: the same with the series' world of picture k. *changed: whether it is another one. */
+int relight_light_next(relight_light *inout, int *changed, relight_options *o, int32_t k, report *r);
 int relight_light_at(relight_light *inout, const relight_options *o, lmb_vec3 at, int32_t n, report *r);
 /* relight_light_filter: filters `map` as it is. Returns 1, or 0 on failure. */
 int relight_light_filter(relight_light *inout, const relight_options *o, int32_t n);

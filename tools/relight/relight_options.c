@@ -195,6 +195,10 @@ static const option_row object_rows[] = {
              "or else by -0000, -0001, ... If the world changes, as when clouds move, write the new world's file "
              "behind the place, relative to FILE: it counts from that picture on, seen from the same centre. `lambent "
              "capture` makes worlds of a scene")},
+    {.name = "--world-every", .value = "N", .kind = OPTION_INT, AT(world_every), .low = 1, .high = 1000000,
+     .help = HELP("with a numbered --world, as sky_%03d.hdr, and --path: pictures from one file to the next, between "
+             "which the world is blended (default 1: a file a picture). Numbers begin with the lowest that exists; "
+             "the last file stays")},
     {.name = "--reuse", .value = "M", .kind = OPTION_NUMBER, AT(policy.radius_m), .low = 0, .high = 1e5,
      .help = HELP("an object keeps its light until it is M metres from where it was computed (default 0.15; 0: until "
              "it rests)")},

@@ -22,7 +22,7 @@ typedef struct relight_options {
     /* the world */
     const char *world[RELIGHT_WORLDS], *ground;
     lmb_vec3 centre[RELIGHT_WORLDS];
-    int32_t worlds, centres;
+    int32_t worlds, centres, world_every; /* world_every: pictures per file of a numbered --world */
     lmb_world_pictures place; /* everything except the pictures; of the first world */
     float ground_size[2], ground_centre[2];
     int32_t format, blend;
@@ -61,7 +61,7 @@ extern const option_table relight_table;
 /* Parses X,Y,Z within 1,000,000 m. Returns 1, or 0 if the text is invalid. */
 int relight_place(const char *text, lmb_vec3 *out);
 
-/* Do the numbers of worlds and centres match? Returns 1, or 0 with `r` set. */
+/* Do the numbers of worlds and centres match, and is a numbered world possible here? Returns 1, or 0 with `r` set. */
 int relight_worlds_check(const relight_options *o, report *r);
 
 /* relight_has_ground: does the world have a ground: a ground picture or a floor? */

@@ -3,8 +3,33 @@
 
 #include <string.h>
 
+#include "../common/frame_name.h"
+
+/* A numbered world is one series, and needs pictures that follow each other. [S20 S28] */
+static int check_series(const relight_options *o, report *r)
+{
+    int is_series = 0;
+    for (int32_t i = 0; i < o->worlds; ++i) {
+        is_series |= frame_digits(o->world[i]) > 0;
+        if (is_series && o->worlds > 1) {
+            return report_fail(r, "--world %s: numbered files are one world that changes; give no other", o->world[i]);
+        }
+    }
+    if (is_series && o->path == NULL) {
+        return report_fail(r, "--world %s: numbered files need the pictures of a --path", o->world[0]);
+    }
+    if (is_series && o->out != NULL && strcmp(o->out, o->world[0]) == 0) {
+        return report_fail(r, "%s: both --world and -o; the pictures would join the world", o->out);
+    }
+    return is_series || o->world_every == 0 ||
+           report_fail(r, "--world-every needs a numbered --world, as sky_%%03d.hdr");
+}
+
 int relight_worlds_check(const relight_options *o, report *r)
 {
+    if (!check_series(o, r)) {
+        return 0;
+    }
     for (int32_t i = 0; o->worlds > 1 && i < o->worlds; ++i) {
         if (strcmp(o->world[i], "demo") == 0) {
             return report_fail(r, "--world demo is the only one where it is given");

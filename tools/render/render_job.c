@@ -176,10 +176,10 @@ static int can_bounce_many(const render_job *j)
 static int add_sun(render_job *j, report *r)
 {
     const uint32_t count = j->scene.light_count;
-    if (!j->around.has_sun) {
+    if (!j->around.has_sun && !j->o.world_changes) {
         return 1;
     }
-    j->with_sun = take(j, (count + 1) * sizeof *j->with_sun, r);
+    j->with_sun = take(j, (count + RENDER_SUNS) * sizeof *j->with_sun, r);
     if (j->with_sun == NULL) {
         return 0;
     }
@@ -188,7 +188,8 @@ static int add_sun(render_job *j, report *r)
     }
     j->with_sun[count] = j->around.sun;
     j->scene.lights = j->with_sun;
-    j->scene.light_count = count + 1;
+    j->scene.light_count = count + (uint32_t)j->around.has_sun;
+    j->own_lights = count;
     return 1;
 }
 
@@ -310,27 +311,30 @@ static int is_soft(const render_job *j)
     return j->wide != NULL && can_bounce_many(j) && !mirrors && !shows_map(j->o.show);
 }
 
+/* The tree of the sky's lights and, if they are too many for maps, of the scene's. */
+static int take_tree(render_job *j, const lmb_light *lights, uint32_t count, report *r)
+{
+    const uint32_t cells = j->o.many_lights_cells > 0 ? (uint32_t)j->o.many_lights_cells : LIGHT_STREAM_CELLS;
+    const light_list lists[2] = {{lights, j->too_many ? count : 0}, {j->around.lights, j->around.count}};
+    const uint32_t all = lists[0].count + lists[1].count;
+    if (all > 0 && !can_bounce_many(j)) {
+        return report_fail_usage(r, "--group method: %u lights of %s bounce by cut only; or use --show direct",
+                           (unsigned)all, j->o.scene);
+    }
+    j->gathers_sky = all > 0 && !j->too_many && j->o.show != LMB_SHOW_DIRECT;
+    j->in_tree = lists[0].count;
+    j->scene.light_count = count - lists[0].count;
+    return all == 0 || light_stream_take(&j->many_lights, lists, cells, r);
+}
+
 /* Lights go into a tree if they are too many for maps, or if an option selects it; lights of a sky always do. */
 static int set_light_stream(render_job *j, report *r)
 {
-    const uint32_t cells = j->o.many_lights_cells > 0 ? (uint32_t)j->o.many_lights_cells : LIGHT_STREAM_CELLS;
-    const int too_many = j->o.many_lights_cells > 0 || is_soft(j) || j->scene.light_count > most_mapped(j);
-    const light_list lists[2] = {{j->scene.lights, too_many ? j->scene.light_count : 0},
-                                 {j->around.lights, j->around.count}};
-    if (lists[0].count + lists[1].count == 0) {
-        return 1;
-    }
-    if (!can_bounce_many(j)) {
-        return report_fail_usage(r, "--group method: %u lights of %s bounce by cut only; or use --show direct",
-                           (unsigned)(lists[0].count + lists[1].count), j->o.scene);
-    }
-    if (!light_stream_take(&j->many_lights, lists, cells, r)) {
+    j->too_many = j->o.many_lights_cells > 0 || is_soft(j) || j->scene.light_count > most_mapped(j);
+    if (!take_tree(j, j->scene.lights, j->scene.light_count, r)) {
         return 0;
     }
-    j->gathers_sky = !too_many && j->o.show != LMB_SHOW_DIRECT;
-    if (too_many) {
-        j->in_tree = j->scene.light_count;
-        j->scene.light_count = 0;
+    if (j->too_many && j->many_lights.tree.node != NULL) {
         report_note(j->o.view.is_quiet, "%u lights in %u cells (--many-lights)", (unsigned)j->many_lights.tree.lights,
                     (unsigned)j->many_lights.tree.cell_count);
     }
@@ -510,6 +514,25 @@ int render_job_refit(render_job *j, report *r)
     j->workers.scratches = j->frame.scratch;
     set_numbers(j);
     render_job_eye(j, &j->frame, &j->linear, 0);
+    return 1;
+}
+
+int render_job_change_world(render_job *j, lmb_light *lights, report *r)
+{
+    const world *w = &j->around;
+    uint32_t past = j->own_lights;
+    if (w->has_fading) {
+        lights[past++] = w->fading;
+    }
+    if (w->has_sun) {
+        lights[past++] = w->sun;
+    }
+    memcpy(j->with_sun + j->own_lights, lights + j->own_lights, (past - j->own_lights) * sizeof *lights);
+    light_stream_free(&j->many_lights);
+    if (!take_tree(j, j->with_sun, past, r) || !render_job_refit(j, r)) {
+        return 0;
+    }
+    memset(j->render, 0, sizeof *j->render);
     return 1;
 }
 

@@ -13,6 +13,8 @@
 #include "blended.h"
 #include "render_options.h"
 
+enum { RENDER_SUNS = 2 }; /* the most suns of a world */
+
 /* One run, from the options to the picture. render_job_free frees everything in it. */
 typedef struct render_job {
     render_options o;
@@ -29,6 +31,8 @@ typedef struct render_job {
     lmb_view middle; /* between the eyes */
     int32_t eyes;    /* 1, or 2: side by side in the picture */
     light_stream many_lights;
+    uint32_t own_lights; /* of scene.lights; suns of the world, at most RENDER_SUNS, follow them */
+    int too_many;     /* for maps: all lights go into the tree */
     uint32_t in_tree; /* lights of the scene that are only in the tree: scene.light_count is 0, scene.lights has them */
     lmb_frame frame; /* view and out belong to the current eye */
     lmb_render *render;
@@ -57,6 +61,11 @@ int render_job_take(render_job *j, report *r);
 
 /* render_job_refit: sets up the frame and the block again after the options changed. Returns 1, or 0 with `r` set. */
 int render_job_refit(render_job *j, report *r);
+
+/* render_job_change_world: after `around` has changed, puts the world's suns behind the own lights in `lights`, which
+ * has room for RENDER_SUNS, and sets up tree, frame and block again. The next frame reuses nothing. `lights` is
+ * scene.lights, or stays unused if all lights are in a tree. Returns 1, or 0 with `r` set. [S20 S28] */
+int render_job_change_world(render_job *j, lmb_light *lights, report *r);
 
 /* render_job_picture: allocates a black picture for all eyes. render_job_eye: sets the view of `f` to an eye, and
  * the output to the eye's part of the picture. */

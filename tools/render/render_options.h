@@ -41,6 +41,7 @@ typedef struct render_options {
     float light_size[RENDER_LIGHTS]; /* m, or degrees for a sun; 0: none */
     uint32_t light_count;
     const char *world; /* sky, none, or a file; NULL: a sky if the scene has no light */
+    int32_t world_changes; /* from frame to frame: scene.lights keeps room for suns. Set by `play` */
     int32_t has_sky; /* use a sky if the scene has no light; set by verbs that draw pictures */
     int32_t no_ground;
     render_background background;

@@ -17,6 +17,7 @@ enum { RIM = 64 /* corners of the ground */ };
 #define SKY_REACH   10.0f          /* radius of the ground over that of the scene: the rim is far away */
 #define BELOW       5e-5f          /* of the radius: floors that has_floor misses still lie on top */
 #define WORLD_REACH 4.0f           /* with an environment map the ground is only a small disc */
+#define ONE_SUN     0.94f          /* cosine of 20 degrees: nearer suns of two worlds are one that moves */
 
 void world_free(world *w)
 {
@@ -403,4 +404,71 @@ int world_light(world *w, report *r)
         leave_hidden(w);
     }
     return 1;
+}
+
+/* --- worlds that change ------------------------------------------------------------------------------------------- */
+
+/* A half float of an environment: not negative, and finite. */
+static float half_value(uint16_t code)
+{
+    const int exponent = code >> 10;
+    return exponent > 0 ? ldexpf((float)(1024 + code % 1024), exponent - 25) : ldexpf((float)code, -24);
+}
+
+static void blend_texels(world *w, const world *a, const world *b, float share)
+{
+    const int32_t n = w->env.size;
+    for (int32_t i = 0; i < 6 * n * n; ++i) {
+        float rgb[3];
+        for (size_t c = 0; c < 3; ++c) {
+            const float from = half_value(a->env.texels[4 * (size_t)i + c]);
+            rgb[c] = share > 0.0f ? from + share * (half_value(b->env.texels[4 * (size_t)i + c]) - from) : from;
+        }
+        lmb_env_set(&w->env, i / (n * n), i % n, i / n % n, rgb);
+    }
+}
+
+static lmb_light dimmed(lmb_light l, float share)
+{
+    for (int c = 0; c < 3; ++c) {
+        l.intensity[c] *= share;
+    }
+    return l;
+}
+
+static void blend_suns(world *w, const world *a, const world *b, float share)
+{
+    w->has_sun = w->has_fading = 0;
+    if (a->has_sun) {
+        w->sun = dimmed(a->sun, 1.0f - share);
+        w->has_sun = 1;
+    }
+    if (share <= 0.0f || !b->has_sun) {
+        return;
+    }
+    const lmb_light next = dimmed(b->sun, share);
+    if (!w->has_sun) {
+        w->sun = next;
+        w->has_sun = 1;
+    } else if (dot3(a->sun.direction, b->sun.direction) > ONE_SUN) {
+        w->sun.direction =
+            normalize3(add3(mul3(a->sun.direction, 1.0f - share), mul3(b->sun.direction, share)));
+        for (int c = 0; c < 3; ++c) {
+            w->sun.intensity[c] += next.intensity[c];
+        }
+    } else {
+        w->fading = w->sun;
+        w->sun = next;
+        w->has_fading = 1;
+    }
+}
+
+void world_blend(world *w, const world *a, const world *b, float share)
+{
+    blend_texels(w, a, b, share);
+    blend_suns(w, a, b, share);
+    list_lights(w);
+    if (w->has_ground) {
+        leave_hidden(w);
+    }
 }

@@ -12,8 +12,8 @@ typedef struct world {
     void *env_memory;
     lmb_light *lights; /* distant lights, one per part of the sky that is not black, without the sun */
     uint32_t count;
-    lmb_light sun;
-    int has_sun, is_sky, has_ground;
+    lmb_light sun, fading; /* fading: of the world before, in a blend */
+    int has_sun, has_fading, is_sky, has_ground;
     uint32_t ground_id; /* id of the first triangle of the ground, which comes last */
     /* Copies of the scene's arrays with the ground appended. */
     lmb_mesh *meshes;
@@ -34,6 +34,11 @@ int world_read(world *out, const char *path, int is_quiet, report *r);
  * leaves out those that the ground hides. Return 1, or 0 with `r` set. */
 int world_put_ground(world *inout, lmb_scene *scene, lmb_vec3 eye, report *r);
 int world_light(world *inout, report *r);
+
+/* world_blend: sets the light of `inout`, which world_light has made, to that of two worlds with equal faces and
+ * without lights, with a share of b. Suns that are near each other become one between them. `b` may be NULL with a
+ * share of 0. [S20 S28] */
+void world_blend(world *inout, const world *a, const world *b, float share);
 
 void world_free(world *w);
 
