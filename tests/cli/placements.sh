@@ -142,11 +142,24 @@ list 'out/two.pfm tent.obj 7,12 30 0.4\nout/two.pfm other.obj 16,12 30 0.4\n'
 status 0 mix $seen $sun --placements set/list.txt -q
 "$TOOL" mix $seen $sun $two --scale 0.2 --turn 30 -q -o pfm:- >same.pfm
 check "one --scale and --turn hold for all, to standard output" cmp same.pfm set/out/two.pfm
+check "objects of a usual size have no note" lacks "m long" err.txt
+status 0 mix $seen $sun $two --scale 100 --scale 0.001 -o x.png
+said "set/tent.obj: the object is 200 m long"
+said "m long and fills the picture; --fit chooses its size"
+said "m long and vanishes in the picture; --fit chooses its size"
+rm x.png
 status 2 mix $seen $two --object set/tent.obj -o x.png
 said "--object and --at: 3 and 2 of them; give each object its place"
 status 2 mix $seen --object set/tent.obj --at 8,12 --at 9,12 -o x.png
+said "--at: 2 places, but one --object; give each place its --object"
 status 2 mix $seen --object set/tent.obj --scale 1 --scale 2 -o x.png
-said "--object, --at, --scale and --turn: 1, 0, 2 and 0 of them"
+said "--object and --scale: 1 and 2 of them; give one --scale, or each object one"
+status 2 mix $seen $two --turn 1 --turn 2 --turn 3 -o x.png
+said "--object and --turn: 2 and 3 of them; give one --turn, or each object one"
+for extra in "--voxels 7" "--cones 19"; do
+    status 2 mix $seen $two $extra -o x.png
+    said "several --object: their light needs no voxels; leave --voxels and --cones out"
+done
 for extra in "--show delta" "--stats x.json" "--roughness 0.2" "--frames set/list.txt" "--placements set/list.txt"; do
     status 2 mix $seen $two -o x.png $extra
 done

@@ -271,6 +271,14 @@ static int complete_photo(const mix_options *o, report *r)
                                  : o->out != NULL || report_fail(r, "no output given; add -o FILE.png");
 }
 
+/* One value for all objects, or one each? */
+static int counts_fit(int32_t count, int32_t objects, const char *option, report *r)
+{
+    return count <= 1 || count == objects ||
+           report_fail(r, "--object and %s: %d and %d of them; give one %s, or each object one", option, (int)objects,
+                       (int)count, option);
+}
+
 /* Several objects need a place each; scale and turn are one for all, or one each. */
 static int complete_objects(const mix_options *o, report *r)
 {
@@ -283,14 +291,20 @@ static int complete_objects(const mix_options *o, report *r)
     if (n > 1 && o->ats != n) {
         return report_fail(r, "--object and --at: %d and %d of them; give each object its place", (int)n, (int)o->ats);
     }
-    if ((o->scales > 1 && o->scales != n) || (o->turns > 1 && o->turns != n) || (o->ats > 1 && n < 2)) {
-        return report_fail(r, "--object, --at, --scale and --turn: %d, %d, %d and %d of them; give one for all, or one "
-                              "each", (int)n, (int)o->ats, (int)o->scales, (int)o->turns);
+    if (n < 2 && o->ats > 1) {
+        return report_fail(r, "--at: %d places, but %s; give each place its --object", (int)o->ats,
+                           n == 1 ? "one --object" : "no --object");
+    }
+    if (!counts_fit(o->scales, n, "--scale", r) || !counts_fit(o->turns, n, "--turn", r)) {
+        return 0;
     }
     for (int32_t i = 0; i < n && n > 1; ++i) {
         if (o->at_of[i].at == MIX_AT_WORLD && (o->fit || o->scales > 0 || o->turns > 0)) {
             return report_fail(r, "--at world has the mesh's own scale and turn; leave --scale, --fit and --turn out");
         }
+    }
+    if (n > 1 && (o->depth > 0 || o->cones > 0)) {
+        return report_fail(r, "several --object: their light needs no voxels; leave --voxels and --cones out");
     }
     return n < 2 || (o->frames == NULL && o->stats == NULL && o->show == MIX_FINAL && !(o->specular > 0.0f)) ||
            report_fail(r, "several --object: leave --frames, --stats, --show and --roughness out");
@@ -333,8 +347,6 @@ int mix_options_parse(mix_options *out, int argc, char **argv, report *r)
 {
     memset(out, 0, sizeof *out);
     out->shadow_map = 1024;
-    out->depth = 7;
-    out->cones = 19;
     out->exposure_ev = NAN;
     out->kernels = lmb_kernels_pick();
     const int asked = options_parse(out, &mix_table, argc, argv, r);
@@ -343,5 +355,10 @@ int mix_options_parse(mix_options *out, int argc, char **argv, report *r)
     memcpy(out->at_px, out->at_of[0].px, sizeof out->at_px);
     out->scale = out->scale_of[0];
     out->turn_deg = out->turn_of[0];
-    return asked == OPTIONS_RUN && !complete(out, r) ? OPTIONS_BAD : asked;
+    if (asked == OPTIONS_RUN && !complete(out, r)) {
+        return OPTIONS_BAD;
+    }
+    out->depth = out->depth > 0 ? out->depth : 7;
+    out->cones = out->cones > 0 ? out->cones : 19;
+    return asked;
 }

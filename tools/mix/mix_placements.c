@@ -484,6 +484,32 @@ static void put_in_world(mix_job *one)
     }
 }
 
+/* Notes an object of the command line that fills the picture or vanishes, by the corners of the box around it.
+ * `there`: from the object to the camera. */
+static void tell_size(const placements *p, const mix_job *one, const lmb_mat4 *there, const char *mesh)
+{
+    const lmb_vec3 low = one->object.scene.bounds_min, high = one->object.scene.bounds_max;
+    const lmb_pinhole *c = &one->frame.camera;
+    float from[2] = {INFINITY, INFINITY}, to[2] = {-INFINITY, -INFINITY};
+    int is_behind = 0;
+    for (int i = 0; i < 8; ++i) {
+        const lmb_vec3 corner = {i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z},
+                       at = mix_move(there, corner);
+        const float px[2] = {c->fx * at.x / -at.z, c->fy * at.y / -at.z};
+        is_behind |= !(at.z < 0.0f);
+        for (int k = 0; k < 2; ++k) {
+            from[k] = fminf(from[k], px[k]);
+            to[k] = fmaxf(to[k], px[k]);
+        }
+    }
+    const float side = fmaxf(to[0] - from[0], to[1] - from[1]);
+    const int fills = is_behind || !(side < 1.5f * (float)(c->width > c->height ? c->width : c->height));
+    report_note(!p->is_line || one->o.fit || p->j->o.is_quiet || (!fills && !(side < 4.0f)),
+                "%s: the object is %.3g m long and %s; --fit chooses its size, --scale M sets it", mesh,
+                (double)(mix_extent_of(one).longest * one->scale),
+                fills ? "fills the picture" : "vanishes in the picture");
+}
+
 static int put(mix_spot *out, const placements *p, const list_row *row, mix_job *one, report *r)
 {
     const mix_job *j = p->j;
@@ -520,6 +546,7 @@ static int put(mix_spot *out, const placements *p, const list_row *row, mix_job 
     mix_turn_scene(one);
     const lmb_mat4 back = mix_back(&one->from_world), to_world = mix_object_to_scene(one),
                    there = mix_product(&back, &to_world);
+    tell_size(p, one, &there, row->mesh);
     out->placed = mix_product(&j->from_world, &there);
     out->thing = row->thing;
     out->scale = one->scale;
@@ -642,6 +669,9 @@ static int run(placements *p, report *r)
     j->planes_s = mix_lap(&from);
     ok = ok && mix_place(j, r) && put_all(p, r);
     j->place_s = mix_lap(&from);
+    if (ok) {
+        report_print_notes();
+    }
     ok = ok && light_photo(p, r);
     j->light_s = mix_lap(&from);
     ok = ok && draw_all(p, r);
