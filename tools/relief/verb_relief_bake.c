@@ -331,13 +331,20 @@ static int bake(work *w, const options *o, report *r)
         return 0;
     }
     w->bake.format = o->is_packed ? LMB_RELIEF_PACKED : LMB_RELIEF_FULL;
-    if (!relief_add_views(&w->bake, &w->loaded.scene, w->view, w->views, pool_threads(o->threads), r) ||
+    /* A file of one view: models and views that are too small or too large are refused before the notes. */
+    if (!relief_add(&w->bake, &w->loaded.scene, &w->view[0], r) ||
+        !relief_encode(&w->file, &w->bake, &w->simple, r)) {
+        return 0;
+    }
+    file_free(&w->file);
+    for (int i = 0; i < 2; ++i) {
+        model_tell(&w->notes[i], i == 0 ? o->model : o->simple, MODEL_NOTE_OPTION);
+    }
+    report_print_notes();
+    if (!relief_add_views(&w->bake, &w->loaded.scene, w->view + 1, w->views - 1, pool_threads(o->threads), r) ||
         !relief_cover(&coverage, &w->bake, &w->mesh, r) || !relief_encode(&w->file, &w->bake, &w->simple, r) ||
         !file_write(o->out, w->file.data, w->file.size, r)) {
         return 0;
-    }
-    for (int i = 0; i < 2; ++i) {
-        model_tell(&w->notes[i], i == 0 ? o->model : o->simple, MODEL_NOTE_OPTION);
     }
     if (!o->is_quiet) {
         tell(w, o, &coverage);
