@@ -742,8 +742,8 @@ MAPS ?= $(addprefix ../shared/data/env/,forest_slope_512x256.hdr potsdamer_platz
 measure-contact: $(B)/measure-contact ## objects on a ground under maps, against path-traced pictures (MAPS)
 	@mkdir -p $(B)/contact && for map in $(MAPS); do $(RUN) $(B)/measure-contact $(B)/contact $$map || exit 1; done
 
-measure-export: $(B)/measure-export ## relight's files for other programs against plain sums over the map (MAPS)
-	@mkdir -p $(B)/export && for map in $(MAPS); do $(RUN) $(B)/measure-export $(B)/export $$map || exit 1; done
+measure-export: $(B)/measure-export ## relight's files for other programs against plain sums over the map (MAPS, and four of our own)
+	@mkdir -p $(B)/export && for map in $(MAPS) made:1 made:2 made:3 made:4; do $(RUN) $(B)/measure-export $(B)/export $$map || exit 1; done
 
 measure-simplify: $(B)/measure-simplify ## errors of simplified meshes: distances, silhouettes, time
 	@$(RUN) $(B)/measure-simplify

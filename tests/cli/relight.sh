@@ -251,6 +251,7 @@ for k in 00 01 02 03 04 05; do
     check "lobe $k of a white world is white" sh -c '"$1" info "$2" | grep -cE "min (1|0.99999.*) .*max (1|1.00000.*) " | grep -qx 3' sh "$TOOL" "lobe_$k.pfm"
 done
 check "a white world's harmonics" sh -c 'tr -d " \n" <"$1" | grep -q "\"radiance\":\[\[3\.5449.*\"irradiance\":\[\[11\.1366"' sh harmonics.json
+check "the smoothest lobe reflects grazing light as a mirror" sh -c '"$1" info "$2" | grep -q "green .*max 0.98"' sh "$TOOL" dfg.pfm
 check "a smooth lobe reflects all of F0" sh -c '"$1" info "$2" | grep -q "red .*max 1 "' sh "$TOOL" dfg.pfm
 status 0 relight --world face --world-box -1,-1,-1,1,1,1 --map quarter.pfm --map-height 16 --azimuth 0 --save-vectors vectors.pfm
 status 0 relight --world face --world-box -1,-1,-1,1,1,1 --map again.pfm --vectors vectors.pfm

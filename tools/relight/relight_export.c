@@ -203,10 +203,11 @@ static lmb_vec3 half_vector(float facing, float alpha, float u, float turn)
     return (lmb_vec3){n.x * length, n.y * length, n.z * length};
 }
 
-/* GGX with height-correlated Smith: the reflected share of uniform white light is F0 out[0] + out[1]. */
+/* GGX with height-correlated Smith: the reflected share of uniform white light is F0 out[0] + out[1]. Other programs
+ * have no LMB_MIN_ALPHA, so the smoothest rows are those of a mirror. */
 static void reflect_white(float out[2], float facing, float roughness)
 {
-    const float alpha = fmaxf(roughness * roughness, LMB_MIN_ALPHA), a2 = alpha * alpha;
+    const float alpha = fmaxf(roughness * roughness, 1e-6f), a2 = alpha * alpha;
     const float side = sqrtf(fmaxf(1.0f - facing * facing, 0.0f)), seen = sqrtf(facing * facing * (1.0f - a2) + a2);
     double scale = 0.0, bias = 0.0;
     for (uint32_t i = 0; i < DFG_SAMPLES; ++i) {
