@@ -122,9 +122,10 @@ static void face_point(double d[3], int face, double s, double t)
     memcpy(d, p[face], sizeof p[face]);
 }
 
-enum { MAX_PLACES = 16 };
+/* Samples per texel and axis: towards the poles, and if the first samples differ much or a little. */
+enum { MAX_PLACES = 16, MANY_PLACES = 8, SOME_PLACES = 4 };
 
-/* Samples per texel and axis: pixels near the poles are narrower, and samples must not miss a sun of one pixel. */
+/* Pixels near the poles are narrower, and samples must not miss a sun of one pixel. */
 static int places_of(const double d[3])
 {
     const double across = sqrt(d[0] * d[0] + d[2] * d[2]), length = sqrt(across * across + d[1] * d[1]);
@@ -167,10 +168,10 @@ static int read_sphere(lmb_world_pictures *out, world_pictures *own, const store
             face_point(d, i, (2 * (at % side) + 1.0) / side - 1, (2 * (at / side) + 1.0) / side - 1);
             const int places = places_of(d);
             mean_at(sum, range, p, i, at, side, places);
-            if (places < MAX_PLACES && range[1] > 4.0 * range[0]) {
-                mean_at(sum, range, p, i, at, side, MAX_PLACES);
-            } else if (places < MAX_PLACES / 2 && range[1] > 1.5 * range[0]) {
-                mean_at(sum, range, p, i, at, side, MAX_PLACES / 2);
+            if (places < MANY_PLACES && range[1] > 4.0 * range[0]) {
+                mean_at(sum, range, p, i, at, side, MANY_PLACES);
+            } else if (places < SOME_PLACES && range[1] > 1.5 * range[0]) {
+                mean_at(sum, range, p, i, at, side, SOME_PLACES);
             }
             for (int c = 0; c < 3; ++c) {
                 own->face[i][3 * (size_t)at + (size_t)c] = sum[3] > 0.0 ? (float)(sum[c] / sum[3]) : 0.0f;
