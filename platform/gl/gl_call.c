@@ -70,6 +70,14 @@ static void call_tex(GLenum unit, float s, float t, float r, float q)
 {
     DO(tex_coord, U(unit), F(s), F(t), F(r), F(q));
 }
+static void call_tex_2(float s, float t)
+{
+    if (gl_now != NULL && gl_now->list_mode == 0) {
+        call_tex(GL_TEXTURE0, s, t, 0.0f, 1.0f);
+    } else {
+        DO(tex_coord_2, F(s), F(t));
+    }
+}
 static void call_raster(float x, float y, float z, float w) { DO(raster_pos, F(x), F(y), F(z), F(w)); }
 static void call_window(float x, float y, float z) { DO(window_pos, F(x), F(y), F(z)); }
 static void call_second(float r, float g, float b) { DO(second, F(r), F(g), F(b)); }
@@ -96,7 +104,7 @@ TYPES(WINDOW, glWindowPos, call_window)
 
 #define TEX(name, call, t, T) \
     void glTexCoord1##t(T s) { call_tex(GL_TEXTURE0, (float)s, 0.0f, 0.0f, 1.0f); } \
-    void glTexCoord2##t(T s, T u) { call_tex(GL_TEXTURE0, (float)s, (float)u, 0.0f, 1.0f); } \
+    void glTexCoord2##t(T s, T u) { call_tex_2((float)s, (float)u); } \
     void glTexCoord3##t(T s, T u, T r) { call_tex(GL_TEXTURE0, (float)s, (float)u, (float)r, 1.0f); } \
     void glTexCoord4##t(T s, T u, T r, T q) { call_tex(GL_TEXTURE0, (float)s, (float)u, (float)r, (float)q); } \
     void glTexCoord1##t##v(const T *v) { glTexCoord1##t(v[0]); } \

@@ -360,7 +360,7 @@ extern GL_THREAD gl_context *gl_now;
 /* --- operations --------------------------------------------------------------------------------------------------- */
 
 #define GL_OPERATIONS(X) \
-    X(vertex) X(colour) X(normal) X(tex_coord) X(second) X(fog_coord) X(edge) X(begin) X(end) X(material) \
+    X(vertex) X(vertex_3) X(colour) X(normal) X(tex_coord) X(tex_coord_2) X(second) X(fog_coord) X(edge) X(begin) X(end) X(material) \
     X(eval_coord) X(eval_point) X(call_list) X(call_lists) \
     X(enable) X(alpha_func) X(blend_func) X(blend_equation) X(blend_colour) X(clear) X(clear_colour) X(clear_depth) \
     X(clear_stencil) X(clear_accum) X(colour_mask) X(colour_material) X(cull_face) X(depth_func) X(depth_mask) \
@@ -406,7 +406,7 @@ GLuint gl_new_names(gl_context *c, gl_table *t, int32_t count); /* the first of 
 void gl_flush_vertices(gl_context *c); /* draws the batch */
 void gl_make_vertices(gl_context *c);  /* transforms and lights the batch, before a state changes */
 void gl_vertex_at(gl_context *c, const float at[4]);
-void gl_vertices_at(gl_context *c, const gl_word *w, int32_t count); /* 4 words each */
+void gl_vertices_at(gl_context *c, const gl_word *w, int32_t count, int32_t words); /* 3 (w is 1) or 4 words each */
 void gl_update_matrices(gl_context *c);
 void gl_set_draw(gl_context *c); /* derives draw.h's state from the context's */
 int gl_draw_func(GLenum func);

@@ -55,25 +55,31 @@ static gl_word *list_record(gl_context *c, int op, const gl_word *w, int32_t wor
     c->list_run = NULL;
     if (to != NULL) {
         to[0].u = (uint32_t)op | (uint32_t)words << 16 | flags;
-        if (words > 0) {
+        if (words == 3) { /* most often */
+            memcpy(to + 1, w, 3 * sizeof *w);
+        } else if (words > 0) {
             memcpy(to + 1, w, (size_t)words * sizeof *w);
         }
     }
     return to;
 }
 
-/* Vertices in a row are one operation. */
+/* Vertices in a row are one operation; if all of them have the w 1, it holds no w. */
 void gl_list_vertex(gl_context *c, const float at[4])
 {
+    const int op = at[3] == 1.0f ? OP_vertex_3 : OP_vertex;
+    const int32_t words = op == OP_vertex ? 4 : 3;
     gl_chunk *k = c->list_chunk;
-    gl_word *run = c->list_run, w[4];
-    memcpy(w, at, sizeof w);
-    if (run != NULL && k->used + 4 <= k->cap && list_words(run) + 4 <= LIST_MOST_WORDS) {
-        memcpy(&k->word[k->used], w, sizeof w);
-        k->used += 4;
-        run->u += (uint32_t)4 << 16;
+    gl_word *run = c->list_run;
+    if (run != NULL && (run->u & 0xffffu) == (uint32_t)op && k->used + 4 <= k->cap &&
+        list_words(run) + words <= LIST_MOST_WORDS) {
+        memcpy(&k->word[k->used], at, 4 * sizeof *at); /* the next operation replaces a w that is left out */
+        k->used += words;
+        run->u += (uint32_t)words << 16;
     } else {
-        c->list_run = list_record(c, OP_vertex, w, 4, 0);
+        gl_word w[4];
+        memcpy(w, at, sizeof w);
+        c->list_run = list_record(c, op, w, words, 0);
     }
     if (c->list_mode != GL_COMPILE) {
         gl_vertex_at(c, at);
@@ -130,9 +136,10 @@ void gl_do_data(gl_context *c, int op, gl_word *w, int32_t words, const void *da
     }
 }
 
-void gl_list_free(gl_context *c, gl_list *list)
+static void list_clear(gl_context *c, gl_list *list)
 {
     gl_chunk *k = list->first;
+    list->first = NULL;
     while (k != NULL) {
         gl_chunk *next = k->next;
         for (int32_t i = 0; i < k->used; i += 1 + list_words(&k->word[i])) {
@@ -143,6 +150,11 @@ void gl_list_free(gl_context *c, gl_list *list)
         gl_free(c, k);
         k = next;
     }
+}
+
+void gl_list_free(gl_context *c, gl_list *list)
+{
+    list_clear(c, list);
     gl_free(c, list);
 }
 
@@ -155,12 +167,13 @@ void gl_run_list(gl_context *c, GLuint name)
     ++c->list_depth;
     for (const gl_chunk *k = list->first; k != NULL; k = k->next) {
         for (int32_t i = 0; i < k->used;) {
-            const uint32_t head = k->word[i].u;
+            const int op = (int)(k->word[i].u & 0xffffu);
             const int32_t words = list_words(&k->word[i]);
-            if ((head & 0xffffu) == OP_vertex) {
-                gl_vertices_at(c, &k->word[i + 1], words / 4);
+            if (op == OP_vertex || op == OP_vertex_3) {
+                const int32_t each = op == OP_vertex ? 4 : 3;
+                gl_vertices_at(c, &k->word[i + 1], words / each, each);
             } else {
-                list_run(c, (int)(head & 0xffffu), &k->word[i + 1]);
+                list_run(c, op, &k->word[i + 1]);
             }
             i += 1 + words;
         }
@@ -178,6 +191,10 @@ void glNewList(GLuint name, GLenum mode)
     GL_FAIL(name == 0, GL_INVALID_VALUE, )
     GL_FAIL(mode != GL_COMPILE && mode != GL_COMPILE_AND_EXECUTE, GL_INVALID_ENUM, )
     GL_FAIL(c->list_mode != 0, GL_INVALID_OPERATION, )
+    gl_list *old = gl_find(&c->group->lists, name);
+    if (old != NULL && mode == GL_COMPILE && c->group->users == 1) {
+        list_clear(c, old); /* nothing can call it until glEndList, and the new list takes its memory */
+    }
     gl_list *list = gl_alloc(c, sizeof *list);
     if (list != NULL) {
         list->name = name;

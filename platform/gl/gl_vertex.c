@@ -32,9 +32,20 @@ OP(tex_coord)
         gl_error(c, GL_INVALID_ENUM);
     }
 }
+/* s and t of the first unit. */
+OP(tex_coord_2)
+{
+    const gl_word all[4] = {w[0], w[1], {.f = 0.0f}, {.f = 1.0f}};
+    vertex_set(c, c->s.current.v.tex[0], all, 4);
+}
 OP(vertex)
 {
     const float at[4] = {w[0].f, w[1].f, w[2].f, w[3].f};
+    gl_vertex_at(c, at);
+}
+OP(vertex_3)
+{
+    const float at[4] = {w[0].f, w[1].f, w[2].f, 1.0f};
     gl_vertex_at(c, at);
 }
 
@@ -143,17 +154,33 @@ void gl_vertex_at(gl_context *c, const float at[4])
     }
 }
 
-void gl_vertices_at(gl_context *c, const gl_word *w, int32_t count)
+/* Puts vertices into the batch, which has room for them. */
+static void vertex_copies(float (*to)[4], const gl_word *w, int32_t count, int32_t words)
+{
+    if (words == 4) {
+        memcpy(to, w, (size_t)count * sizeof *to);
+        return;
+    }
+    for (int32_t i = 0; i + 1 < count; ++i, w += 3) { /* with the first word of the next one */
+        memcpy(to[i], w, sizeof to[i]);
+        to[i][3] = 1.0f;
+    }
+    memcpy(to[count - 1], w, 3 * sizeof *w);
+    to[count - 1][3] = 1.0f;
+}
+
+void gl_vertices_at(gl_context *c, const gl_word *w, int32_t count, int32_t words)
 {
     while (count > 0) {
         const int32_t n = c->count < c->open ? mini(count, c->open - c->count) : 1;
         if (c->count < c->open) {
-            memcpy(c->at_of[c->count], w, (size_t)n * sizeof c->at_of[0]);
+            vertex_copies(&c->at_of[c->count], w, n, words);
             c->count += n;
         } else {
-            gl_op_vertex(c, w);
+            const float at[4] = {w[0].f, w[1].f, w[2].f, words == 4 ? w[3].f : 1.0f};
+            gl_vertex_at(c, at);
         }
-        w += 4 * n;
+        w += words * n;
         count -= n;
     }
 }

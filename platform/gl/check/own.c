@@ -207,6 +207,71 @@ static void list_errors(void)
     expect(GL_INVALID_ENUM, "glDrawArrays(77), by a list");
 }
 
+/* Vertices with and without a w, and coordinates of a texture, in runs longer than a record of a list. */
+static void draw_mixed(void)
+{
+    unsigned seed = 3;
+    glBegin(GL_TRIANGLES);
+    for (int i = 0; i < 12000; ++i) {
+        seed = seed * 1664525u + 1013904223u;
+        const float x = (float)(seed >> 8 & 1023) / 512 - 1, y = (float)(seed >> 18 & 1023) / 512 - 1,
+                    w = i / 30 % 7 == 3 ? 1.5f : 1;
+        if (i % 6000 == 5001 || (i / 2000 == 1 && i % 3 == 0)) {
+            glTexCoord2f(x, y);
+            glColor3f(x, y, 1);
+        }
+        if (i > 11000 && i % 5 == 1) {
+            glVertex2f(x, y);
+        } else {
+            glVertex4f(x * w, y * w, (float)(i % 100) / 100 * w, w);
+        }
+    }
+    glEnd();
+}
+
+/* A list draws as its calls do. While a list is compiled again, its name stays in use, and only GL_COMPILE_AND_EXECUTE
+ * can call the list of before. */
+static void lists_again(void)
+{
+    static const unsigned char texels[4][4] = {{255, 9, 9, 255}, {9, 255, 9, 255}, {9, 9, 255, 255}, {99, 99, 99, 255}};
+    static unsigned char once[sizeof pixels];
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, 2, 2, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glEnable(GL_TEXTURE_2D);
+    for (int by_list = 0; by_list < 2; ++by_list) {
+        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+        glTexCoord4f(0, 0, 0, 2);
+        glColor3f(1, 1, 1);
+        if (by_list) {
+            glNewList(10, GL_COMPILE);
+        }
+        draw_mixed();
+        if (by_list) {
+            glEndList();
+            glCallList(10);
+        }
+        glFinish();
+        if (by_list) {
+            check(memcmp(once, pixels, sizeof once) == 0, "vertices of a list");
+        }
+        memcpy(once, pixels, sizeof once);
+    }
+    glDisable(GL_TEXTURE_2D);
+    glNewList(10, GL_COMPILE);
+    check(glIsList(10), "a list that is compiled again");
+    glColor3f(0, 1, 0);
+    glEndList();
+    glNewList(10, GL_COMPILE_AND_EXECUTE);
+    glColor3f(0, 0, 1);
+    glCallList(10);
+    glRectf(-1, -1, 1, 1);
+    glEndList();
+    glFinish();
+    check(pixels[20][20][1] == 255, "the list of before, called by its successor");
+    expect(GL_NO_ERROR, "lists again");
+}
+
 /* Depth and stencil in one pixel, copied into another place. */
 static void depth_stencil(void)
 {
@@ -284,6 +349,7 @@ int main(void)
             glLoadIdentity();
             many();
             list_errors();
+            lists_again();
             depth_stencil();
             tall();
         }
