@@ -304,6 +304,10 @@ lmb_status lmb_draw_list(const lmb_draw_target *target, const lmb_draw_state *st
 /* lmb_draw_fragment: the position of pixel `k`, 0 .. 63, in the primitive. Call it only inside the shader; gives zeros
  * if `pixels` has no job or `k` is outside. */
 void lmb_draw_fragment(lmb_draw_fragment_at *out, const lmb_draw_pixels_of *pixels, int32_t k);
+
+/* lmb_draw_shares: the shares of all pixels of the mask at once, equal to those of lmb_draw_fragment. Sets no other
+ * pixels, or sets them to any value. */
+void lmb_draw_shares(float out[2][64], const lmb_draw_pixels_of *pixels);
 #endif
 
 /* lmb_blit: copy an image to (x, y) of a surface; parts outside the surface are cut off.

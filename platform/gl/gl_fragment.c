@@ -422,6 +422,163 @@ static int fragment_is_out(const gl_context *c, int is_line, int is_area, int32_
     return 0;
 }
 
+static int fragment_has_units(const gl_context *c)
+{
+    int any = 0;
+    for (int i = 0; i < GL_UNITS; ++i) {
+        any |= gl_unit_is_on(c, i);
+    }
+    return any;
+}
+
+/* --- pixels without textures -------------------------------------------------------------------------------------- */
+
+/* Four pixels in a row, or one if the compiler has no vectors. Values equal those of single pixels. */
+#ifdef __GNUC__
+enum { FOUR = 4 };
+typedef float four __attribute__((vector_size(16)));
+typedef int32_t four_int __attribute__((vector_size(16)));
+typedef uint32_t four_bits __attribute__((vector_size(16)));
+#define FOUR_PICK(mask, a, b) ((four)(((four_int)(a) & (mask)) | ((four_int)(b) & ~(mask))))
+static inline four four_splat(float v) { return (four){v, v, v, v}; }
+static inline four_int four_to_int(four v) { return __builtin_convertvector(v, four_int); }
+static inline four four_of_int(four_int v) { return __builtin_convertvector(v, four); }
+#else
+enum { FOUR = 1 };
+typedef float four;
+typedef int32_t four_int;
+typedef uint32_t four_bits;
+#define FOUR_PICK(mask, a, b) ((mask) ? (a) : (b))
+static inline four four_splat(float v) { return v; }
+static inline four_int four_to_int(four v) { return (int32_t)v; }
+static inline four four_of_int(four_int v) { return (float)v; }
+#endif
+
+static inline four four_load(const float *v)
+{
+    four r;
+    memcpy(&r, v, sizeof r);
+    return r;
+}
+
+/* gl_unit_range. */
+static inline four four_range(four v)
+{
+    const four zero = four_splat(0.0f), one = four_splat(1.0f), high = FOUR_PICK(v > zero, v, zero);
+    return FOUR_PICK(high < one, high, one);
+}
+
+/* lmb_exp2 */
+static inline four four_exp2(four v)
+{
+    const four low = four_splat(-126.0f), high = four_splat(127.99f), held = FOUR_PICK(v >= low, v, low);
+    const four x = FOUR_PICK(held < high, held, high), to = x + 0.5f, whole = four_of_int(four_to_int(to));
+    const four k = FOUR_PICK(whole > to, whole - 1.0f, whole), f = x - k;
+    four p = 0x1.c6af7ap-5f + f * (0x1.3b2dd2p-7f + f * (0x1.5f0946p-10f + f * 0x1.417a5cp-13f));
+    four_int bits;
+    p = 1.0f + f * (0x1.62e43p-1f + f * (0x1.ebfbdcp-3f + f * p));
+    memcpy(&bits, &p, sizeof bits);
+    bits += four_to_int(k) * 0x800000;
+    memcpy(&p, &bits, sizeof p);
+    return p;
+}
+
+/* The share that fog leaves at a distance. */
+static inline four four_fog(four z, const gl_context *c)
+{
+    const float start = c->s.fog.start, end = c->s.fog.end;
+    four v = c->s.fog.density * z;
+    if (c->s.fog.mode == GL_LINEAR && end == start) {
+        v = FOUR_PICK(z < four_splat(end), four_splat(1.0f), four_splat(0.0f));
+    } else if (c->s.fog.mode == GL_LINEAR) {
+        v = (end - z) / (end - start);
+    } else if (c->s.fog.mode == GL_EXP) {
+        v = four_exp2(-v * 1.44269504f);
+    } else {
+        v = four_exp2(-v * v * 1.44269504f);
+    }
+    return four_range(v);
+}
+
+/* A value of the primitive's vertices: that of vertex 0, and the differences of the others. */
+typedef struct fragment_value {
+    float at, more1, more2;
+} fragment_value;
+
+static fragment_value fragment_value_of(float a, float b, float d)
+{
+    const fragment_value v = {a, b - a, d - a};
+    return v;
+}
+
+static inline four four_mix(const fragment_value *v, const four share[2])
+{
+    return v->at + (share[0] * v->more1 + share[1] * v->more2);
+}
+
+/* Values of a primitive without textures: R, G, B, A; the secondary colour; the fog's distance. */
+typedef struct fragment_values {
+    fragment_value colour[4], second[3], fog;
+    int adds, fogs; /* 1: a secondary colour that is not 0; fog */
+} fragment_values;
+
+static void fragment_set_values(fragment_values *out, const gl_context *c, const gl_made *const m[3], int side)
+{
+    out->adds = 0;
+    out->fogs = gl_is_on(c, CAP_FOG);
+    for (int i = 0; i < 4; ++i) {
+        out->colour[i] = fragment_value_of(m[0]->colour[side][i], m[1]->colour[side][i], m[2]->colour[side][i]);
+    }
+    for (int i = 0; i < 3; ++i) {
+        const fragment_value v =
+            fragment_value_of(m[0]->second[side][i], m[1]->second[side][i], m[2]->second[side][i]);
+        out->second[i] = v;
+        out->adds |= v.at != 0.0f || v.more1 != 0.0f || v.more2 != 0.0f;
+    }
+    out->fog = fragment_value_of(m[0]->fog, m[1]->fog, m[2]->fog);
+}
+
+static inline four_bits four_colours(const gl_context *c, const fragment_values *v, const four share[2])
+{
+    const four left = v->fogs ? four_fog(four_mix(&v->fog, share), c) : four_splat(1.0f);
+    four_bits codes = (four_bits)four_to_int(four_splat(0.0f));
+    for (int n = 0; n < 4; ++n) {
+        four r = four_mix(&v->colour[n], share);
+        if (v->adds && n < 3) {
+            r += four_mix(&v->second[n], share);
+        }
+        r = four_range(r);
+        if (v->fogs && n < 3) {
+            r = four_range(left * r + (1.0f - left) * c->s.fog.colour[n]);
+        }
+        codes |= (four_bits)four_to_int(r * 255.0f + 0.5f) << 8 * n;
+    }
+    return codes;
+}
+
+/* Pixels of a primitive without textures, stipples and bounced light. */
+static void fragment_bare(const gl_context *c, const lmb_draw_pixels_of *p, const gl_made *const m[3], int side,
+                          uint8_t out[64][4])
+{
+    float share[2][64];
+    fragment_values v;
+    fragment_set_values(&v, c, m, side);
+    lmb_draw_shares(share, p);
+    for (int k = 0; k < 64; k += FOUR) {
+        if ((p->mask >> k & ((1u << FOUR) - 1u)) != 0) {
+            const four of[2] = {four_load(&share[0][k]), four_load(&share[1][k])};
+            const four_bits codes = four_colours(c, &v, of);
+            uint32_t code[FOUR];
+            memcpy(code, &codes, sizeof code);
+            for (int i = 0; i < FOUR; ++i) {
+                for (int n = 0; n < 4; ++n) {
+                    out[k + i][n] = (uint8_t)(code[i] >> 8 * n);
+                }
+            }
+        }
+    }
+}
+
 uint64_t gl_shade_pixels(void *user, const lmb_draw_pixels_of *p, uint8_t out[64][4])
 {
     const gl_context *c = user;
@@ -432,6 +589,11 @@ uint64_t gl_shade_pixels(void *user, const lmb_draw_pixels_of *p, uint8_t out[64
     const int fogs = gl_is_on(c, CAP_FOG), sprites = is_point && gl_is_on(c, CAP_POINT_SPRITE);
     const int bounces = is_area && c->bounces;
     uint64_t kept = p->mask;
+    if (!bounces && !(is_line && gl_is_on(c, CAP_LINE_STIPPLE)) && !(is_area && gl_is_on(c, CAP_POLYGON_STIPPLE)) &&
+        !fragment_has_units(c)) {
+        fragment_bare(c, p, m, side, out);
+        return kept;
+    }
     fragment_coords u[GL_UNITS];
     float lit[64][4], second[64][3];
     if (bounces) {

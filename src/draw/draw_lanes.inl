@@ -673,6 +673,17 @@ static void KERNEL(draw_paint)(const lmb_draw_patch *p, uint64_t mask)
 
 #if !defined(LANE_PLAIN)
 
+static void KERNEL(draw_shares)(float out[2][LMB_TILE_PIXELS], const lmb_draw_patch *p, uint64_t mask)
+{
+    for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
+        if (draw_bits(mask, k) != 0) {
+            const draw_share share = draw_share_at(p, k);
+            lane_store(&out[0][k], draw_value_at(p, 0, &share));
+            lane_store(&out[1][k], draw_value_at(p, 1, &share));
+        }
+    }
+}
+
 /* The value of a plane at a tile, as in draw_tile.c. */
 LANE_INLINE void draw_slope_set(lmb_draw_slope *out, const lmb_draw_plane *p, double x, double y)
 {

@@ -180,6 +180,7 @@ void lmb_draw_rows_begin(lmb_draw_pass *pass);
 uint64_t lmb_draw_rows_test(const tile_job *job, uint64_t mask);
 void lmb_draw_rows_paint(const tile_job *job, uint64_t mask);
 int lmb_draw_lanes_paint(const tile_job *job, uint64_t mask); /* with the state's kernels; 0: they cannot */
+int lmb_draw_lanes_shares(float out[2][LMB_TILE_PIXELS], const tile_job *job, uint64_t mask); /* the same */
 
 /* An edge's value at pixel (0, 0) of the frame, and per px. Pixels are inside where it is not negative. */
 typedef struct draw_edge {

@@ -227,6 +227,26 @@ int lmb_draw_lanes_paint(const tile_job *j, uint64_t mask)
     return 1;
 }
 
+int lmb_draw_lanes_shares(float out[2][LMB_TILE_PIXELS], const tile_job *j, uint64_t mask)
+{
+    const lmb_kernels *kernels = j->pass->state->kernels;
+    const lmb_draw_shape *s = j->shape;
+    lmb_draw_patch p;
+    if (kernels == NULL || kernels->draw_shares == NULL || s->corners == 1 || s->is_cut) {
+        return 0;
+    }
+    rows_lanes_value(&p, s, 0, CORNER_SHARE);
+    rows_lanes_value(&p, s, 1, CORNER_SHARE + 1);
+    p.is_even = s->is_even;
+    p.n1 = rows_slope(&j->n1);
+    p.n2 = rows_slope(&j->n2);
+    if (!p.is_even) {
+        p.q = rows_slope(&j->q);
+    }
+    kernels->draw_shares(out, &p, mask);
+    return 1;
+}
+
 static void rows_set_steps(lmb_draw_slope *slope, const lmb_draw_plane *p)
 {
     slope->x = (float)p->x;

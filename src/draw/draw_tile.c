@@ -315,6 +315,27 @@ void lmb_draw_fragment(lmb_draw_fragment_at *out, const lmb_draw_pixels_of *pixe
     tile_find_shares(out->by_y, j->shape, y1, y2);
 }
 
+void lmb_draw_shares(float out[2][LMB_TILE_PIXELS], const lmb_draw_pixels_of *pixels)
+{
+    const tile_job *j = pixels != NULL ? (const tile_job *)pixels->job : NULL;
+    if (j == NULL || out == NULL) {
+        return;
+    }
+#if LMB_DRAW_LANES
+    if (lmb_draw_lanes_shares(out, j, pixels->mask)) {
+        return;
+    }
+#endif
+    for (uint64_t bits = pixels->mask; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        const tile_share s = tile_find_share(j, k);
+        float share[2];
+        tile_find_shares(share, j->shape, s.b1, s.b2);
+        out[0][k] = share[0] + j->shape->corner[0]->v[CORNER_SHARE];
+        out[1][k] = share[1] + j->shape->corner[0]->v[CORNER_SHARE + 1];
+    }
+}
+
 /* The same for pixels that the caller's shader colours. */
 static uint64_t tile_shade(uint8_t colour[LMB_TILE_PIXELS][4], const tile_job *j, uint64_t mask)
 {
@@ -340,7 +361,7 @@ static uint64_t tile_colours(uint8_t colour[LMB_TILE_PIXELS][4], const tile_job 
 #if !LMB_DRAW_SMALL
     mask = s->shader != NULL && mask != 0 ? tile_shade(colour, j, mask) : mask;
 #endif
-    for (uint64_t bits = mask; bits != 0; bits &= bits - 1) {
+    for (uint64_t bits = DRAW_FULL && s->shader != NULL && !tests ? 0 : mask; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
         if (!DRAW_FULL || s->shader == NULL) {
             tile_colour(colour[k], j, k);
@@ -437,6 +458,36 @@ static void tile_store(const tile_job *j, int k, const uint8_t colour[4])
     lmb_draw_put_bits(format, at, (was & ~mask) | (bits & mask));
 }
 
+/* 1: colours replace pixels of four bytes. */
+static int tile_is_copied(const lmb_draw_pass *pass)
+{
+    const lmb_draw_state *s = pass->state;
+    const int32_t format = pass->target->colour.format;
+    return (s->flags & (LMB_DRAW_BLEND | LMB_DRAW_LOGIC)) == 0 && s->colour_mask == 15 &&
+           (format == LMB_RGBA8 || format == LMB_BGRA8);
+}
+
+/* Stores colours if tile_is_copied. */
+static void tile_store_all(const tile_job *j, uint64_t mask, uint8_t colour[LMB_TILE_PIXELS][4])
+{
+    const lmb_surface *to = &j->pass->target->colour;
+    uint8_t *row = (uint8_t *)to->data + (ptrdiff_t)(j->y - j->pass->target->y0) * to->stride_bytes +
+                   (ptrdiff_t)(j->x - j->pass->target->x0) * 4;
+    const int swaps = to->format == LMB_BGRA8 ? 2 : 0;
+    for (int i = 0; i < LMB_TILE && !swaps; ++i) {
+        const uint64_t bits = (uint64_t)0xffu << LMB_TILE * i;
+        if ((mask & bits) == bits) {
+            memcpy(row + (ptrdiff_t)i * to->stride_bytes, colour[LMB_TILE * i], 4 * LMB_TILE);
+            mask &= ~bits;
+        }
+    }
+    for (; mask != 0; mask &= mask - 1) {
+        const int k = lowest_bit_64(mask);
+        const uint8_t *c = colour[k], code[4] = {c[swaps], c[1], c[2 - swaps], c[3]};
+        memcpy(row + (ptrdiff_t)(k >> 3) * to->stride_bytes + 4 * (k & 7), code, 4);
+    }
+}
+
 /* --- a tile ------------------------------------------------------------------------------------------------------- */
 
 /* The pixels of a tile that may be drawn. */
@@ -482,6 +533,10 @@ NOINLINE void tile_draw_tested(const tile_job *j, uint64_t mask)
         mask = tile_tests(j, mask);
     }
     tile_count(j->pass, mask);
+    if (DRAW_FULL && j->pass->shows && tile_is_copied(j->pass)) {
+        tile_store_all(j, mask, colour);
+        return;
+    }
     for (uint64_t bits = j->pass->shows ? mask : 0; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
         tile_store(j, k, colour[k]);

@@ -174,6 +174,7 @@ const lmb_kernels KERNEL(lmb_kernels) = {
     NULL,
     NULL,
     NULL,
+    NULL,
 #else
     KERNEL(draw_sheet),
     KERNEL(draw_area),
@@ -184,6 +185,7 @@ const lmb_kernels KERNEL(lmb_kernels) = {
 #else
     NULL,
 #endif
+    KERNEL(draw_shares),
 #endif
     KERNEL(draw_fill),
 #endif

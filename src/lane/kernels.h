@@ -754,6 +754,8 @@ struct lmb_kernels {
     void (*draw_area)(lmb_draw_area *area);
     /* Draws triangles up to the first that needs another path. Returns that, or the count. Plain C: NULL. */
     uint32_t (*draw_small)(lmb_draw_small *inout);
+    /* Values 0 and 1 of the pixels of `mask`, and any values of others. Plain C: NULL. */
+    void (*draw_shares)(float out[2][LMB_TILE_PIXELS], const lmb_draw_patch *pixels, uint64_t mask);
     /* Blends R G B A, in the order of the pixels' bytes, onto rows `stride` bytes apart: over them by the share
      * A, or added. */
     void (*draw_fill)(uint8_t *row, int32_t stride, int32_t width, int32_t height, uint32_t codes, int adds);

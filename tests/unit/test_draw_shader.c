@@ -33,6 +33,8 @@ static int is_inner(uint64_t mask, int k)
 static uint64_t shade(void *user, const lmb_draw_pixels_of *p, uint8_t colour[64][4])
 {
     uint64_t out = 0;
+    float shares[2][64];
+    lmb_draw_shares(shares, p);
     seen.strange += user != &seen || p->mask == 0 || p->x % 8 != 0 || p->y % 8 != 0;
     ++seen.calls;
     seen.backs += p->is_back;
@@ -40,6 +42,7 @@ static uint64_t shade(void *user, const lmb_draw_pixels_of *p, uint8_t colour[64
     for (int k = 0; k < 64; ++k) {
         lmb_draw_fragment_at at, next[2];
         lmb_draw_fragment(&at, p, k);
+        seen.strange += (p->mask >> k & 1) != 0 && (shares[0][k] != at.share[0] || shares[1][k] != at.share[1]);
         for (int i = 0; i < 4 && is_inner(p->mask, k); ++i) { /* from both sides */
             const float by = i < 2 ? at.by_x[i % 2] : at.by_y[i % 2];
             lmb_draw_fragment(&next[0], p, k - (i < 2 ? 1 : 8));
@@ -98,17 +101,18 @@ static void test_shares(void)
     static uint8_t was[CASE_HIGH][CASE_WIDE][4];
     static const int32_t all[] = {LMB_DRAW_TRIANGLES, LMB_DRAW_QUADS, LMB_DRAW_POLYGON, LMB_DRAW_TRIANGLE_STRIP,
                                   LMB_DRAW_LINE_LOOP, LMB_DRAW_POINTS};
-    for (int i = 0; i < 18; ++i) {
+    for (int i = 0; i < 72; ++i) { /* flat and in perspective, in plain C and by kernels */
         const int32_t primitive = all[i % 6];
         for (int shaded = 0; shaded < 2; ++shaded) {
             shader_begin();
             state.shader = shaded ? shade : NULL;
-            state.kernels = NULL;
+            state.kernels = shaded && i / 18 % 2 == 1 ? lmb_kernels_pick() : NULL;
+            state.to_clip.m[3] = i < 36 ? 0.0f : 0.01f;
             state.point_px = 5;
-            state.planes = i / 6 == 1 ? 1 : 0; /* x + y >= 20 */
+            state.planes = i / 6 % 3 == 1 ? 1 : 0; /* x + y >= 20 */
             state.plane[0][0] = state.plane[0][1] = 1.0f;
             state.plane[0][3] = -20.0f;
-            state.polygon_mode[0] = state.polygon_mode[1] = (uint8_t)(i / 6 == 2 ? LMB_DRAW_EDGES : LMB_DRAW_FILL);
+            state.polygon_mode[0] = state.polygon_mode[1] = (uint8_t)(i / 6 % 3 == 2 ? LMB_DRAW_EDGES : LMB_DRAW_FILL);
             CHECK(case_draw(primitive, quad, colours[0], 4) == LMB_OK);
             if (!shaded) {
                 memcpy(was, drawn.colour, sizeof was);
