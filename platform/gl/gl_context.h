@@ -411,6 +411,7 @@ void gl_update_matrices(gl_context *c);
 void gl_set_draw(gl_context *c); /* derives draw.h's state from the context's */
 int gl_draw_func(GLenum func);
 void gl_light_vertex(gl_context *c, const gl_vertex *v, gl_made *made);
+void gl_light_codes(gl_context *c, int32_t from); /* colour_of the vertices from `from` on, from eye_of; one side */
 /* One side's colours at a place in eye space. seen: lights that are not hidden, a bit each. */
 void gl_light_side(const gl_context *c, const gl_material *m, const float eye[4], const float n[3], uint32_t seen,
                    float colour[4], float second[3]);

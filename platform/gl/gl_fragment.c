@@ -1,6 +1,6 @@
 /* gl_fragment.c: a pixel's colour if draw.h's own stages are not enough: textures of all kinds, texture environments,
  * two sides, colour sums, fog and stipples. Values are 0 .. 1 until the end. */
-#include "gl_context.h"
+#include "gl_four.h"
 
 typedef struct fragment_texel {
     float v[4];
@@ -433,56 +433,6 @@ static int fragment_has_units(const gl_context *c)
 
 /* --- pixels without textures -------------------------------------------------------------------------------------- */
 
-/* Four pixels in a row, or one if the compiler has no vectors. Values equal those of single pixels. */
-#ifdef __GNUC__
-enum { FOUR = 4 };
-typedef float four __attribute__((vector_size(16)));
-typedef int32_t four_int __attribute__((vector_size(16)));
-typedef uint32_t four_bits __attribute__((vector_size(16)));
-#define FOUR_PICK(mask, a, b) ((four)(((four_int)(a) & (mask)) | ((four_int)(b) & ~(mask))))
-static inline four four_splat(float v) { return (four){v, v, v, v}; }
-static inline four_int four_to_int(four v) { return __builtin_convertvector(v, four_int); }
-static inline four four_of_int(four_int v) { return __builtin_convertvector(v, four); }
-#else
-enum { FOUR = 1 };
-typedef float four;
-typedef int32_t four_int;
-typedef uint32_t four_bits;
-#define FOUR_PICK(mask, a, b) ((mask) ? (a) : (b))
-static inline four four_splat(float v) { return v; }
-static inline four_int four_to_int(four v) { return (int32_t)v; }
-static inline four four_of_int(four_int v) { return (float)v; }
-#endif
-
-static inline four four_load(const float *v)
-{
-    four r;
-    memcpy(&r, v, sizeof r);
-    return r;
-}
-
-/* gl_unit_range. */
-static inline four four_range(four v)
-{
-    const four zero = four_splat(0.0f), one = four_splat(1.0f), high = FOUR_PICK(v > zero, v, zero);
-    return FOUR_PICK(high < one, high, one);
-}
-
-/* lmb_exp2 */
-static inline four four_exp2(four v)
-{
-    const four low = four_splat(-126.0f), high = four_splat(127.99f), held = FOUR_PICK(v >= low, v, low);
-    const four x = FOUR_PICK(held < high, held, high), to = x + 0.5f, whole = four_of_int(four_to_int(to));
-    const four k = FOUR_PICK(whole > to, whole - 1.0f, whole), f = x - k;
-    four p = 0x1.c6af7ap-5f + f * (0x1.3b2dd2p-7f + f * (0x1.5f0946p-10f + f * 0x1.417a5cp-13f));
-    four_int bits;
-    p = 1.0f + f * (0x1.62e43p-1f + f * (0x1.ebfbdcp-3f + f * p));
-    memcpy(&bits, &p, sizeof bits);
-    bits += four_to_int(k) * 0x800000;
-    memcpy(&p, &bits, sizeof p);
-    return p;
-}
-
 /* The share that fog leaves at a distance. */
 static inline four four_fog(four z, const gl_context *c)
 {
@@ -551,7 +501,7 @@ static inline four_bits four_colours(const gl_context *c, const fragment_values 
         if (v->fogs && n < 3) {
             r = four_range(left * r + (1.0f - left) * c->s.fog.colour[n]);
         }
-        codes |= (four_bits)four_to_int(r * 255.0f + 0.5f) << 8 * n;
+        codes |= four_code(r, n);
     }
     return codes;
 }
@@ -567,14 +517,7 @@ static void fragment_bare(const gl_context *c, const lmb_draw_pixels_of *p, cons
     for (int k = 0; k < 64; k += FOUR) {
         if ((p->mask >> k & ((1u << FOUR) - 1u)) != 0) {
             const four of[2] = {four_load(&share[0][k]), four_load(&share[1][k])};
-            const four_bits codes = four_colours(c, &v, of);
-            uint32_t code[FOUR];
-            memcpy(code, &codes, sizeof code);
-            for (int i = 0; i < FOUR; ++i) {
-                for (int n = 0; n < 4; ++n) {
-                    out[k + i][n] = (uint8_t)(code[i] >> 8 * n);
-                }
-            }
+            four_save_codes(out + k, four_colours(c, &v, of), FOUR);
         }
     }
 }

@@ -1,5 +1,5 @@
 /* gl_light.c: lights, materials, the colours of lit vertices, and generated texture coordinates. */
-#include "gl_context.h"
+#include "gl_four.h"
 
 #define OP(name) void gl_op_##name(gl_context *c, const gl_word *w)
 #define CHECK(good, error) \
@@ -263,6 +263,242 @@ void gl_light_vertex(gl_context *c, const gl_vertex *v, gl_made *made)
         }
         for (int i = 0; i < 3; ++i) {
             made->second[s][i] = gl_unit_range(made->second[s][i]);
+        }
+    }
+}
+
+/* --- colours of many vertices ------------------------------------------------------------------------------------- */
+
+/* What the vertices share of a light. Far: no vertex changes its direction. */
+typedef struct light_lamp {
+    const gl_light *light;
+    int is_far;
+    float to[3], half[3]; /* the direction, of length 1, and that between light and viewer; near: to is the place */
+    float share, spot[3], cosine;
+} light_lamp;
+
+/* Four vertices. */
+typedef struct light_four {
+    four eye[3], normal[3], ambient[3], diffuse[4], specular[3], emission[3], shininess, colour[3];
+    int is_short; /* 1: no normal is longer than a unit, but for rounding */
+} light_four;
+
+static void light_set_lamp(light_lamp *out, const gl_light *l)
+{
+    const float nowhere[3] = {0.0f, 0.0f, 0.0f};
+    out->light = l;
+    out->is_far = !(l->position[3] != 0.0f);
+    out->share = light_way(l, nowhere, out->to);
+    for (int i = 0; i < 3; ++i) {
+        out->half[i] = out->to[i] + (i == 2 ? 1.0f : 0.0f);
+        out->spot[i] = l->spot[i];
+        if (!out->is_far) {
+            out->to[i] = l->position[i] / l->position[3];
+        }
+    }
+    light_normalise(out->half);
+    light_normalise(out->spot);
+    out->cosine = lmb_cos(l->cutoff * (LMB_PI / 180.0f));
+}
+
+/* light_way */
+static four light_four_way(const light_lamp *lamp, const four eye[3], four to[3])
+{
+    const gl_light *l = lamp->light;
+    if (lamp->is_far) {
+        for (int i = 0; i < 3; ++i) {
+            to[i] = four_splat(lamp->to[i]);
+        }
+        return four_splat(lamp->share);
+    }
+    for (int i = 0; i < 3; ++i) {
+        to[i] = lamp->to[i] - eye[i];
+    }
+    const four distance = four_normalise(to);
+    four share = 1.0f / (l->attenuation[0] + distance * (l->attenuation[1] + distance * l->attenuation[2]));
+    if (l->cutoff != 180.0f) {
+        const four spot[3] = {four_splat(lamp->spot[0]), four_splat(lamp->spot[1]), four_splat(lamp->spot[2])};
+        const four cosine = -four_dot(spot, to), zero = four_splat(0.0f);
+        share *= FOUR_PICK((cosine < four_splat(lamp->cosine)) | (cosine <= zero), zero,
+                           four_pow(cosine, four_splat(l->exponent)));
+    }
+    return share;
+}
+
+static four light_four_highlight(const gl_context *c, const light_lamp *lamp, const light_four *v, const four to[3],
+                                 four facing)
+{
+    const four zero = four_splat(0.0f);
+    four half[3];
+    for (int i = 0; i < 3; ++i) {
+        half[i] = four_splat(lamp->half[i]);
+    }
+    if (c->s.lighting.local) {
+        for (int i = 0; i < 3; ++i) {
+            half[i] = -v->eye[i];
+        }
+        four_normalise(half);
+        for (int i = 0; i < 3; ++i) {
+            half[i] = to[i] + half[i];
+        }
+        four_normalise(half);
+    } else if (!lamp->is_far) {
+        half[0] = to[0] + 0.0f;
+        half[1] = to[1] + 0.0f;
+        half[2] = to[2] + 1.0f;
+        four_normalise(half);
+    }
+    const four cosine = four_dot(v->normal, half);
+    const four highlight =
+        FOUR_PICK((cosine > zero) | (v->shininess == zero), four_pow(cosine, v->shininess), zero);
+    return FOUR_PICK(facing > zero, highlight, zero);
+}
+
+/* light_add */
+static void light_four_add(const gl_context *c, const light_lamp *lamp, light_four *v)
+{
+    const gl_light *l = lamp->light;
+    const four zero = four_splat(0.0f);
+    four to[3];
+    const four share = light_four_way(lamp, v->eye, to), facing = four_dot(v->normal, to),
+               faced = FOUR_PICK(facing > zero, facing, zero);
+    four_int dull = share <= four_splat(1e37f);
+    for (int i = 0; i < 3; ++i) {
+        dull &= v->specular[i] * l->specular[i] == zero;
+    }
+    const int shines = !v->is_short || !four_all(dull); /* otherwise the highlight is finite, times 0 */
+    const four highlight = shines ? light_four_highlight(c, lamp, v, to, facing) : zero;
+    for (int i = 0; i < 3; ++i) {
+        four sum = v->colour[i] + share * (v->ambient[i] * l->ambient[i] + faced * v->diffuse[i] * l->diffuse[i]);
+        if (shines) {
+            sum += share * highlight * v->specular[i] * l->specular[i];
+        }
+        v->colour[i] = FOUR_PICK(share == zero, v->colour[i], sum);
+    }
+}
+
+/* A value of four vertices' materials, or of one material. */
+static void light_four_material(light_four *v, const gl_material *const m[FOUR])
+{
+    float of[14][FOUR];
+    for (int k = 0; k < FOUR; ++k) {
+        for (int i = 0; i < 3; ++i) {
+            of[i][k] = m[k]->ambient[i];
+            of[3 + i][k] = m[k]->specular[i];
+            of[6 + i][k] = m[k]->emission[i];
+        }
+        for (int i = 0; i < 4; ++i) {
+            of[9 + i][k] = m[k]->diffuse[i];
+        }
+        of[13][k] = m[k]->shininess;
+    }
+    for (int i = 0; i < 3; ++i) {
+        v->ambient[i] = four_load(of[i]);
+        v->specular[i] = four_load(of[3 + i]);
+        v->emission[i] = four_load(of[6 + i]);
+    }
+    for (int i = 0; i < 4; ++i) {
+        v->diffuse[i] = four_load(of[9 + i]);
+    }
+    v->shininess = four_load(of[13]);
+}
+
+/* Normals and places of vertices `at` with looks `look`; colours with GL_COLOR_MATERIAL. */
+static void light_four_set(gl_context *c, light_four *v, const int32_t at[FOUR], const int32_t look[FOUR])
+{
+    float of[7][FOUR];
+    for (int k = 0; k < FOUR; ++k) {
+        for (int i = 0; i < 3; ++i) {
+            of[i][k] = c->look[look[k]].normal[i];
+        }
+        for (int i = 0; i < 4; ++i) {
+            of[3 + i][k] = c->eye_of[at[k]][i];
+        }
+    }
+    const four in[3] = {four_load(of[0]), four_load(of[1]), four_load(of[2])}, w = four_load(of[6]);
+    for (int i = 0; i < 3; ++i) {
+        const float *m = &c->normal_matrix[3 * i];
+        const four eye = four_load(of[3 + i]);
+        v->normal[i] = m[0] * in[0] + m[1] * in[1] + m[2] * in[2];
+        v->eye[i] = FOUR_PICK(w == four_splat(0.0f), eye, eye / w);
+    }
+    if (gl_is_on(c, CAP_NORMALIZE)) {
+        four_normalise(v->normal);
+    } else if (gl_is_on(c, CAP_RESCALE)) {
+        for (int i = 0; i < 3; ++i) {
+            v->normal[i] *= c->eye_scale;
+        }
+    }
+    v->is_short = four_all(four_dot(v->normal, v->normal) <= four_splat(1.02f));
+    if (gl_is_on(c, CAP_COLOR_MATERIAL)) {
+        gl_material m[FOUR];
+        const gl_material *all[FOUR];
+        for (int k = 0; k < FOUR; ++k) {
+            light_track(c, c->look[look[k]].colour);
+            m[k] = c->s.lighting.material[0];
+            all[k] = &m[k];
+        }
+        light_four_material(v, all);
+    }
+}
+
+/* The codes of four vertices. */
+static four_bits light_four_codes(gl_context *c, light_four *v, const light_lamp *lamp, int lamps)
+{
+    for (int i = 0; i < 3; ++i) {
+        v->colour[i] = v->emission[i] + v->ambient[i] * c->s.lighting.ambient[i];
+    }
+    for (int i = 0; i < lamps; ++i) {
+        light_four_add(c, &lamp[i], v);
+    }
+    four_bits codes = four_code(four_range(v->diffuse[3]), 3);
+    for (int i = 0; i < 3; ++i) {
+        codes |= four_code(four_range(v->colour[i]), i);
+    }
+    return codes;
+}
+
+void gl_light_codes(gl_context *c, int32_t from)
+{
+    const gl_material *all[FOUR];
+    light_lamp lamp[GL_LIGHTS];
+    light_four v;
+    int lamps = 0, far = !c->s.lighting.local;
+    for (int i = 0; i < GL_LIGHTS; ++i) {
+        if (gl_is_on(c, CAP_LIGHT + i)) {
+            light_set_lamp(&lamp[lamps], &c->s.lighting.light[i]);
+            far &= lamp[lamps++].is_far;
+        }
+    }
+    for (int i = 0; i < FOUR; ++i) {
+        all[i] = &c->s.lighting.material[0];
+    }
+    gl_update_matrices(c);
+    light_four_material(&v, all);
+    int32_t k = 0;
+    for (int32_t i = from; i < c->count;) {
+        int32_t at[FOUR], look[FOUR], past[FOUR]; /* the codes of at[n] are those of all vertices before past[n] */
+        int n = 0;
+        for (; n < FOUR && i < c->count; ++n) {
+            while (k + 1 < c->looks && c->look_from[k + 1] <= i) {
+                ++k;
+            }
+            at[n] = i;
+            look[n] = k;
+            i = far ? (k + 1 < c->looks ? c->look_from[k + 1] : c->count) : i + 1;
+            past[n] = i;
+        }
+        for (int m = n; m < FOUR; ++m) {
+            at[m] = at[n - 1];
+            look[m] = look[n - 1];
+        }
+        light_four_set(c, &v, at, look);
+        uint8_t codes[FOUR][4];
+        four_save_codes(codes, light_four_codes(c, &v, lamp, lamps), FOUR);
+        for (int m = 0; m < n; ++m) {
+            for (int32_t to = at[m]; to < past[m]; ++to) {
+                memcpy(c->colour_of[to], codes[m], sizeof codes[m]);
+            }
         }
     }
 }

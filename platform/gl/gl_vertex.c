@@ -644,12 +644,12 @@ static int vertex_all_out(const gl_context *c)
 
 /* --- a batch ------------------------------------------------------------------------------------------------------ */
 
-/* Colours and texture coordinates of unlit vertices, a look at a time. Returns 0 if the general path is needed. */
+/* Texture coordinates, and colours of unlit vertices, a look at a time. Returns 0 if the general path is needed. */
 static int vertex_set_looks(gl_context *c, lmb_draw_vertices *v)
 {
-    const int textured = c->draw.stage[0].texture != NULL;
+    const int textured = c->draw.stage[0].texture != NULL, lit = gl_is_on(c, CAP_LIGHTING);
     const gl_matrices *s = &c->texture[0];
-    for (int32_t k = 0; k < c->looks; ++k) {
+    for (int32_t k = 0; k < c->looks && (textured || !lit); ++k) {
         const int32_t from = c->look_from[k], to = k + 1 < c->looks ? c->look_from[k + 1] : c->count;
         uint8_t code[4];
         float t[4] = {0.0f, 0.0f, 0.0f, 1.0f};
@@ -663,7 +663,7 @@ static int vertex_set_looks(gl_context *c, lmb_draw_vertices *v)
             return 0;
         }
         for (int32_t i = from; i < to; ++i) {
-            memcpy(c->colour_of[i], code, sizeof code);
+            memcpy(c->colour_of[i], code, sizeof code); /* replaced if lit */
             c->uv_of[i][0] = t[0];
             c->uv_of[i][1] = t[1];
         }
@@ -673,23 +673,37 @@ static int vertex_set_looks(gl_context *c, lmb_draw_vertices *v)
     return 1;
 }
 
-/* Draws filled, unlit primitives in a state that needs no values but those of draw.h. Returns 0 if it cannot. */
+/* Colours of lit vertices; earlier ones may have been lit before the material changed. */
+static void vertex_set_lit(gl_context *c)
+{
+    for (int i = 0; i < c->made_count; ++i) {
+        for (int k = 0; k < 4; ++k) {
+            c->colour_of[i][k] = gl_code(c->made[i].colour[0][k]);
+        }
+    }
+    gl_light_codes(c, c->made_count);
+}
+
+/* Draws filled primitives in a state that needs no values but those of draw.h. Returns 0 if it cannot. */
 static int vertex_plain(gl_context *c, int mode)
 {
     static const float one[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     const float *m = c->modelview.m[c->modelview.top];
     lmb_draw_vertices v;
     memset(&v, 0, sizeof v);
-    if (c->shades || gl_is_on(c, CAP_LIGHTING) || vertex_has_units(c) ||
+    if (c->shades || vertex_has_units(c) ||
         (c->draw.stage[0].texture != NULL && c->s.texture.unit[0].gen != 0) || !vertex_set_looks(c, &v)) {
         return 0;
     }
     v.positions = c->at_of;
     v.position_format = LMB_DRAW_F32X4;
     v.count = (uint32_t)c->count;
-    if (memcmp(m, one, sizeof one) != 0) {
+    if (gl_is_on(c, CAP_LIGHTING) || memcmp(m, one, sizeof one) != 0) {
         gl_matrix_points(c->eye_of, m, (const float(*)[4])c->at_of, c->count);
         v.positions = c->eye_of;
+    }
+    if (gl_is_on(c, CAP_LIGHTING)) {
+        vertex_set_lit(c);
     }
     (void)lmb_draw_list(&c->target, &c->draw, &v, mode, NULL, NULL);
     return 1;
