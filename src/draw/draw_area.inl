@@ -45,9 +45,14 @@ LANE_INLINE void area_tile(const lmb_draw_patch *p, uint64_t mask, lanei same, i
     }
 }
 
+/* Vectors of a row of a tile; 1: a vector is a row, or two. */
+enum { AREA_PARTS = LANES < LMB_TILE ? LMB_TILE / LANES : 1, AREA_FAR = 1 << 30 };
+
 /* What the tiles share. */
 typedef struct area_walk {
     lanei same;
+    lanei first[3], across[3], down[3]; /* of the edges: pixels of a tile's first vector, less the first pixel; changes
+                                           to the next vector of a row, and from a row's last to the next row */
     int64_t low[3], high[3]; /* changes of the edges from a tile's first pixel to their least and greatest */
     int meets;
 } area_walk;
@@ -63,26 +68,34 @@ static void KERNEL(area_set)(area_walk *w, const lmb_draw_area *a)
     w->same = draw_join(&v);
     w->same = p->swaps ? draw_swap(w->same) : w->same;
     for (int i = 0; i < 3; ++i) {
-        const int64_t ex = a->edge_x[i], ey = a->edge_y[i];
+        const int32_t ex = a->edge_x[i], ey = a->edge_y[i];
+        w->first[i] = lanei_affine(0, ex, ey, 0);
+        w->across[i] = lanei_splat(LANES * ex);
+        w->down[i] = lanei_splat(LANES > LMB_TILE ? LANES / LMB_TILE * ey : ey - (AREA_PARTS - 1) * LANES * ex);
         w->low[i] = 7 * ((ex < 0 ? ex : 0) + (ey < 0 ? ey : 0));
         w->high[i] = 7 * ((ex > 0 ? ex : 0) + (ey > 0 ? ey : 0));
     }
 }
 
-/* The pixels of a tile that are inside all edges, which are e at the first pixel. A tile inside an edge does not need
- * it, so that sums fit 32 bits. */
-LANE_INLINE uint64_t area_covered(const lmb_draw_area *a, const area_walk *w, const int64_t e[3])
+/* The pixels of a tile that are inside all edges, which are e at the first pixel. A tile that is far inside an edge is
+ * so everywhere, and sums fit 32 bits. */
+LANE_INLINE uint64_t area_covered(const area_walk *w, int64_t e0, int64_t e1, int64_t e2)
 {
-    int32_t at[3], by_x[3], by_y[3];
-    int crossed = 0;
-    for (int i = 0; i < 3; ++i) {
-        const int is_in = e[i] + w->low[i] >= 0;
-        at[i] = is_in ? 0 : (int32_t)e[i];
-        by_x[i] = is_in ? 0 : a->edge_x[i];
-        by_y[i] = is_in ? 0 : a->edge_y[i];
-        crossed |= !is_in;
+    uint64_t mask = 0;
+    if (((e0 + w->low[0]) | (e1 + w->low[1]) | (e2 + w->low[2])) >= 0) {
+        return ~(uint64_t)0;
     }
-    return crossed ? KERNEL(draw_cover)(at, by_x, by_y) : ~(uint64_t)0;
+    lanei a = lanei_add(w->first[0], lanei_splat((int32_t)(e0 < AREA_FAR ? e0 : AREA_FAR)));
+    lanei b = lanei_add(w->first[1], lanei_splat((int32_t)(e1 < AREA_FAR ? e1 : AREA_FAR)));
+    lanei c = lanei_add(w->first[2], lanei_splat((int32_t)(e2 < AREA_FAR ? e2 : AREA_FAR)));
+    for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
+        const lanei *by = k / LANES % AREA_PARTS == AREA_PARTS - 1 ? w->down : w->across;
+        mask |= (uint64_t)mask_bits(lanei_not_negative(lanei_or(lanei_or(a, b), c))) << k;
+        a = lanei_add(a, by[0]);
+        b = lanei_add(b, by[1]);
+        c = lanei_add(c, by[2]);
+    }
+    return mask;
 }
 
 /* The pixels of the tile at (x, y) that are in the box. */
@@ -141,34 +154,47 @@ LANE_INLINE void area_draw(lmb_draw_area *a, const area_walk *w, uint64_t mask, 
     KERNEL(area_plain)(p, w, mask, a->tests);
 }
 
+/* The first column of tiles, from 0, that reaches inside the edges that grow along a row, which are e at the greatest
+ * pixel of tile 0. */
+static int32_t KERNEL(area_first)(const lmb_draw_area *a, const int64_t e[3])
+{
+    int64_t first = 0;
+    for (int i = 0; i < 3; ++i) {
+        if (e[i] < 0 && a->edge_x[i] > 0) {
+            const int64_t by = (int64_t)a->edge_x[i] * LMB_TILE, tiles = (by - 1 - e[i]) / by;
+            first = tiles > first ? tiles : first;
+        }
+    }
+    return (int32_t)(first < LMB_MAX_FRAME ? first : LMB_MAX_FRAME) * LMB_TILE;
+}
+
+/* The tiles of a row that a triangle touches are next to each other. */
 static void KERNEL(draw_area)(lmb_draw_area *a)
 {
+    const int64_t by0 = (int64_t)a->edge_x[0] * LMB_TILE, by1 = (int64_t)a->edge_x[1] * LMB_TILE,
+                  by2 = (int64_t)a->edge_x[2] * LMB_TILE;
     area_walk w;
     KERNEL(area_set)(&w, a);
+    const int64_t high0 = w.high[0], high1 = w.high[1], high2 = w.high[2];
     for (int32_t y = 0; y <= a->y1; y += LMB_TILE) {
         int64_t e[3];
-        int entered = 0;
         for (int i = 0; i < 3; ++i) {
-            e[i] = a->edge[i] + (int64_t)a->edge_y[i] * y;
+            e[i] = a->edge[i] + (int64_t)a->edge_y[i] * y + w.high[i];
         }
-        for (int32_t x = 0; x <= a->x1; x += LMB_TILE) {
-            const int enters = e[0] + w.high[0] >= 0 && e[1] + w.high[1] >= 0 && e[2] + w.high[2] >= 0;
-            if (entered && !enters) {
-                break; /* the tiles of a row that a triangle touches are next to each other */
+        int32_t x = KERNEL(area_first)(a, e);
+        int64_t e0 = e[0] - high0 + (int64_t)a->edge_x[0] * x, e1 = e[1] - high1 + (int64_t)a->edge_x[1] * x,
+                e2 = e[2] - high2 + (int64_t)a->edge_x[2] * x;
+        for (; x <= a->x1 && ((e0 + high0) | (e1 + high1) | (e2 + high2)) >= 0; x += LMB_TILE) {
+            uint64_t mask = area_covered(&w, e0, e1, e2);
+            if (x < a->x0 || y < a->y0 || x + 7 > a->x1 || y + 7 > a->y1) {
+                mask &= area_box(a, x, y);
             }
-            entered = enters;
-            if (enters) {
-                uint64_t mask = area_covered(a, &w, e);
-                if (x < a->x0 || y < a->y0 || x + 7 > a->x1 || y + 7 > a->y1) {
-                    mask &= area_box(a, x, y);
-                }
-                if (mask != 0) {
-                    area_draw(a, &w, mask, x, y);
-                }
+            if (mask != 0) {
+                area_draw(a, &w, mask, x, y);
             }
-            for (int i = 0; i < 3; ++i) {
-                e[i] += (int64_t)a->edge_x[i] * LMB_TILE;
-            }
+            e0 += by0;
+            e1 += by1;
+            e2 += by2;
         }
     }
 }
