@@ -3,10 +3,12 @@
  * Values equal those of draw_shape.c and draw_tile.c. What the tiles share is set up once for the triangle. */
 
 #if !defined(LANE_PLAIN)
-/* Draws the pixels of the mask. */
-LANE_INLINE void area_tile(const lmb_draw_patch *p, uint64_t mask, lanei same, int meets, int tests, int varies)
+/* Draws the pixels of the mask. usual: 1: depths that are less pass, and are stored as they are. */
+LANE_INLINE void area_tile(const lmb_draw_patch *p, uint64_t mask, lanei same, int meets, int tests, int varies,
+                           int usual)
 {
-    const int writes = (p->state->flags & LMB_DRAW_DEPTH_WRITE) != 0, func = p->state->depth_func;
+    const int writes = usual || (p->state->flags & LMB_DRAW_DEPTH_WRITE) != 0,
+              func = usual ? LMB_DRAW_LESS : p->state->depth_func;
     const lane low = lane_splat(p->d_min), high = lane_splat(p->d_max);
     while (mask != 0) { /* processors mispredict a test of each vector */
         const int k = lowest_bit_64(mask) & ~(LANES - 1);
@@ -17,7 +19,7 @@ LANE_INLINE void area_tile(const lmb_draw_patch *p, uint64_t mask, lanei same, i
             float *at = p->depth + (ptrdiff_t)(k >> 3) * p->depth_step + (k & 7);
             const lane was = lane_load_rows(at, p->depth_step);
             lane d = lane_hold(draw_slope_at(&p->d, k), low, high);
-            if (p->d_add != 0.0f) {
+            if (!usual && p->d_add != 0.0f) {
                 d = lane_hold(lane_add(d, lane_splat(p->d_add)), lane_splat(0.0f), lane_splat(1.0f));
             }
             const lane_mask passes = mask_and(mask_of_bits(bits), draw_passing(func, d, was));
@@ -120,22 +122,22 @@ LANE_NOINLINE void KERNEL(area_plain)(const lmb_draw_patch *p, const area_walk *
     const int varies = p->varies;
     if (w->meets == DRAW_MEET_OVER) {
         if (tests) {
-            area_tile(p, mask, w->same, DRAW_MEET_OVER, 1, varies);
+            area_tile(p, mask, w->same, DRAW_MEET_OVER, 1, varies, 0);
         } else {
-            area_tile(p, mask, w->same, DRAW_MEET_OVER, 0, varies);
+            area_tile(p, mask, w->same, DRAW_MEET_OVER, 0, varies, 0);
         }
     } else if (w->meets == DRAW_MEET_ADD) {
-        area_tile(p, mask, w->same, DRAW_MEET_ADD, tests, varies);
+        area_tile(p, mask, w->same, DRAW_MEET_ADD, tests, varies, 0);
     } else if (tests && varies) {
-        area_tile(p, mask, w->same, DRAW_MEET_NOT, 1, 1);
+        area_tile(p, mask, w->same, DRAW_MEET_NOT, 1, 1, 0);
     } else if (tests) {
-        area_tile(p, mask, w->same, DRAW_MEET_NOT, 1, 0);
+        area_tile(p, mask, w->same, DRAW_MEET_NOT, 1, 0, 0);
     } else {
-        area_tile(p, mask, w->same, DRAW_MEET_NOT, 0, varies);
+        area_tile(p, mask, w->same, DRAW_MEET_NOT, 0, varies, 0);
     }
 }
 
-LANE_INLINE void area_draw(lmb_draw_area *a, const area_walk *w, uint64_t mask, int32_t x, int32_t y)
+LANE_INLINE void area_draw(lmb_draw_area *a, const area_walk *w, uint64_t mask, int32_t x, int32_t y, int usual)
 {
     lmb_draw_patch *p = &a->pixels;
     const double at_x = a->x + x, at_y = a->y + y;
@@ -151,7 +153,11 @@ LANE_INLINE void area_draw(lmb_draw_area *a, const area_walk *w, uint64_t mask, 
             area_slope(&p->q, a->plane[3], at_x, at_y);
         }
     }
-    KERNEL(area_plain)(p, w, mask, a->tests);
+    if (usual) {
+        area_tile(p, mask, w->same, DRAW_MEET_NOT, 1, 0, 1);
+    } else {
+        KERNEL(area_plain)(p, w, mask, a->tests);
+    }
 }
 
 /* The first column of tiles, from 0, that reaches inside the edges that grow along a row, which are e at the greatest
@@ -169,33 +175,44 @@ static int32_t KERNEL(area_first)(const lmb_draw_area *a, const int64_t e[3])
 }
 
 /* The tiles of a row that a triangle touches are next to each other. */
-static void KERNEL(draw_area)(lmb_draw_area *a)
+LANE_INLINE void area_draw_all(lmb_draw_area *a, const area_walk *w, int usual)
 {
     const int64_t by0 = (int64_t)a->edge_x[0] * LMB_TILE, by1 = (int64_t)a->edge_x[1] * LMB_TILE,
                   by2 = (int64_t)a->edge_x[2] * LMB_TILE;
-    area_walk w;
-    KERNEL(area_set)(&w, a);
-    const int64_t high0 = w.high[0], high1 = w.high[1], high2 = w.high[2];
+    const int64_t high0 = w->high[0], high1 = w->high[1], high2 = w->high[2];
     for (int32_t y = 0; y <= a->y1; y += LMB_TILE) {
         int64_t e[3];
         for (int i = 0; i < 3; ++i) {
-            e[i] = a->edge[i] + (int64_t)a->edge_y[i] * y + w.high[i];
+            e[i] = a->edge[i] + (int64_t)a->edge_y[i] * y + w->high[i];
         }
         int32_t x = KERNEL(area_first)(a, e);
         int64_t e0 = e[0] - high0 + (int64_t)a->edge_x[0] * x, e1 = e[1] - high1 + (int64_t)a->edge_x[1] * x,
                 e2 = e[2] - high2 + (int64_t)a->edge_x[2] * x;
         for (; x <= a->x1 && ((e0 + high0) | (e1 + high1) | (e2 + high2)) >= 0; x += LMB_TILE) {
-            uint64_t mask = area_covered(&w, e0, e1, e2);
+            uint64_t mask = area_covered(w, e0, e1, e2);
             if (x < a->x0 || y < a->y0 || x + 7 > a->x1 || y + 7 > a->y1) {
                 mask &= area_box(a, x, y);
             }
             if (mask != 0) {
-                area_draw(a, &w, mask, x, y);
+                area_draw(a, w, mask, x, y, usual);
             }
             e0 += by0;
             e1 += by1;
             e2 += by2;
         }
+    }
+}
+
+static void KERNEL(draw_area)(lmb_draw_area *a)
+{
+    const lmb_draw_state *s = a->pixels.state;
+    area_walk w;
+    KERNEL(area_set)(&w, a);
+    if (!a->pixels.varies && a->tests && w.meets == DRAW_MEET_NOT && a->pixels.d_add == 0.0f &&
+        s->depth_func == LMB_DRAW_LESS && (s->flags & LMB_DRAW_DEPTH_WRITE) != 0) {
+        area_draw_all(a, &w, 1);
+    } else {
+        area_draw_all(a, &w, 0);
     }
 }
 #endif
