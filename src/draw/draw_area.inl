@@ -3,6 +3,23 @@
  * Values equal those of draw_shape.c and draw_tile.c. What the tiles share is set up once for the triangle. */
 
 #if !defined(LANE_PLAIN)
+#if LANES > LMB_TILE
+/* Draws pixels of one colour whose depths are less than the stored ones. No branch: processors mispredict how many rows
+ * of a tile have pixels. */
+LANE_INLINE void area_tile_usual(const lmb_draw_patch *p, uint64_t mask, lanei same)
+{
+    const lane low = lane_splat(p->d_min), high = lane_splat(p->d_max);
+    for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
+        float *at = p->depth + (ptrdiff_t)(k >> 3) * p->depth_step;
+        const lane d = lane_hold(draw_slope_at(&p->d, k), low, high);
+        const lane_mask less = lane_lt(d, lane_load_rows(at, p->depth_step));
+        const lane_mask passes = mask_and(mask_of_bits(draw_bits(mask, k)), less);
+        lane_store_rows_some(at, p->depth_step, passes, d);
+        lanei_store_rows_some(p->colour + (ptrdiff_t)(k >> 3) * p->colour_stride, p->colour_stride, passes, same);
+    }
+}
+#endif
+
 /* Draws the pixels of the mask. usual: 1: depths that are less pass, and are stored as they are. */
 LANE_INLINE void area_tile(const lmb_draw_patch *p, uint64_t mask, lanei same, int meets, int tests, int varies,
                            int usual)
@@ -154,7 +171,11 @@ LANE_INLINE void area_draw(lmb_draw_area *a, const area_walk *w, uint64_t mask, 
         }
     }
     if (usual) {
+#if LANES > LMB_TILE
+        area_tile_usual(p, mask, w->same);
+#else
         area_tile(p, mask, w->same, DRAW_MEET_NOT, 1, 0, 1);
+#endif
     } else {
         KERNEL(area_plain)(p, w, mask, a->tests);
     }

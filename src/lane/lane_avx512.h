@@ -165,6 +165,17 @@ static inline void lanei_store_some(uint8_t *p, int n, lanei a)
 }
 #define LANE_GATHERS_RGBA 1
 static inline lanei lanei_gather_rgba(const uint8_t *p, lanei at) { return _mm512_i32gather_epi32(at, p, 4); }
+/* Stores the lanes of the mask. */
+static inline void lane_store_rows_some(float *p, int32_t step, lane_mask m, lane a)
+{
+    _mm256_mask_storeu_ps(p, (__mmask8)m, _mm512_castps512_ps256(a));
+    _mm256_mask_storeu_ps(p + step, (__mmask8)(m >> 8), _mm512_extractf32x8_ps(a, 1));
+}
+static inline void lanei_store_rows_some(uint8_t *p, int32_t step, lane_mask m, lanei a)
+{
+    _mm256_mask_storeu_epi32(p, (__mmask8)m, _mm512_castsi512_si256(a));
+    _mm256_mask_storeu_epi32(p + step, (__mmask8)(m >> 8), _mm512_extracti32x8_epi32(a, 1));
+}
 /* Sixteen rows of four, transposed. */
 #define LANE_GATHERS_RGBA_F32 1
 static inline __m512 lane_four_rows(const float *p, const int32_t *at)
