@@ -181,7 +181,7 @@ static void gears(void)
 
 static const struct workload { const char *name, *unit; double by; void (*run)(void); } workloads[] = {
     {"100,000 immediate-mode triangles", "ms", 1e3, immediate},
-    {"compiling a list, per glVertex3f", "ns", 1e9 / (3.0 * LISTED), compile_list},
+    {"compiling a list again, per glVertex3f", "ns", 1e9 / (3.0 * LISTED), compile_list},
     {"a display list of 1 M triangles", "ms", 1e3, call_list},
     {"glVertex3f, clipped away", "ns", 1e9 / (3.0 * LISTED), clipped},
     {"10,000 blended quads of 32x32, nearest", "ms", 1e3, quads_nearest},
