@@ -360,8 +360,8 @@ extern GL_THREAD gl_context *gl_now;
 /* --- operations --------------------------------------------------------------------------------------------------- */
 
 #define GL_OPERATIONS(X) \
-    X(vertex) X(vertex_3) X(colour) X(normal) X(tex_coord) X(tex_coord_2) X(second) X(fog_coord) X(edge) X(begin) X(end) X(material) \
-    X(eval_coord) X(eval_point) X(call_list) X(call_lists) \
+    X(vertex) X(vertex_3) X(colour) X(normal) X(tex_coord) X(tex_coord_2) X(second) X(fog_coord) X(edge) X(begin) \
+    X(end) X(material) X(eval_coord) X(eval_point) X(call_list) X(call_lists) \
     X(enable) X(alpha_func) X(blend_func) X(blend_equation) X(blend_colour) X(clear) X(clear_colour) X(clear_depth) \
     X(clear_stencil) X(clear_accum) X(colour_mask) X(colour_material) X(cull_face) X(depth_func) X(depth_mask) \
     X(depth_range) X(draw_buffer) X(read_buffer) X(fog) X(front_face) X(hint) X(light) X(light_model) X(line_stipple) \

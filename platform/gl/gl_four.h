@@ -103,7 +103,7 @@ static inline four four_exp2(four v)
 /* lmb_log2 */
 static inline four four_log2(four v)
 {
-    const four least = four_splat(FLT_MIN), x = FOUR_PICK(v >= least, v, least);
+    const four low = four_splat(FLT_MIN), x = FOUR_PICK(v >= low, v, low);
     four_int u, e;
     four f;
     memcpy(&u, &x, sizeof u);

@@ -366,11 +366,11 @@ static void light_four_add(const gl_context *c, const light_lamp *lamp, light_fo
     for (int i = 0; i < 3; ++i) {
         dull &= v->specular[i] * l->specular[i] == zero;
     }
-    const int shines = !v->is_short || !four_all(dull); /* otherwise the highlight is finite, times 0 */
-    const four highlight = shines ? light_four_highlight(c, lamp, v, to, facing) : zero;
+    const int is_shiny = !v->is_short || !four_all(dull); /* otherwise the highlight is finite, times 0 */
+    const four highlight = is_shiny ? light_four_highlight(c, lamp, v, to, facing) : zero;
     for (int i = 0; i < 3; ++i) {
         four sum = v->colour[i] + share * (v->ambient[i] * l->ambient[i] + faced * v->diffuse[i] * l->diffuse[i]);
-        if (shines) {
+        if (is_shiny) {
             sum += share * highlight * v->specular[i] * l->specular[i];
         }
         v->colour[i] = FOUR_PICK(share == zero, v->colour[i], sum);
