@@ -9,6 +9,8 @@
  * the nearest texel's depth is compared with the receiver's plane at the centre of the texel, which needs no slope
  * bias. Half a texel's width along the light is allowed for the curvature of finely tessellated surfaces.
  *
+ * If none of the four shows the receiver's own triangle, tips of other triangles between the texels are sought.
+ *
  * Rejected: depth with a slope-scaled bias (bunny_room: acne or 2 cm of detachment, nothing between). */
 #include "shadow.h"
 
@@ -183,6 +185,17 @@ void lmb_shadow_ask(lmb_shadow_query *out, const lmb_shadow_map *map, const lmb_
     out->scene = scene;
     out->view = view;
     out->face = -1;
+#if LMB_FACETS
+    out->tips.id = 0;
+#endif
+}
+
+static void use_face(lmb_shadow_query *query, const lit_place *at)
+{
+    if (at->face != query->face) {
+        query->face = at->face;
+        query->window = lmb_target_window(&query->map->face[at->face], at->view);
+    }
 }
 
 /* The ids of the four texels around the place. Returns 1 if all are the receiver's own. */
@@ -191,10 +204,7 @@ static int four_ids(uint32_t seen[4], lmb_shadow_query *query, const lit_place *
     const float left = at->x - 0.5f, top = at->y - 0.5f; /* above -1 */
     const int32_t x0 = (int32_t)left - (left < 0.0f), y0 = (int32_t)top - (top < 0.0f), last = query->map->size - 1;
     int same = 1;
-    if (at->face != query->face) {
-        query->face = at->face;
-        query->window = lmb_target_window(&query->map->face[at->face], at->view);
-    }
+    use_face(query, at);
     for (int q = 0; q < 4; ++q) {
         seen[q] = texel_id(&query->window, (uint32_t)mini(maxi(x0 + (q & 1), 0), last),
                            (uint32_t)mini(maxi(y0 + (q >> 1), 0), last));
@@ -202,6 +212,123 @@ static int four_ids(uint32_t seen[4], lmb_shadow_query *query, const lit_place *
     }
     return same;
 }
+
+#if LMB_FACETS
+
+/* --- tips of triangles ---------------------------------------------------------------------------------------------
+ *
+ * The tip of a triangle, as in the corner of a closed room, may cover a place but none of the four texels around it.
+ * The receiver's triangle has a corner there too, if the walls of the room share their corners. The map is read along
+ * lines from the corners of the receiver's triangle through the place: there, a tip that covers the place is wider. A
+ * triangle named there shadows the place only if the exact test finds it over the place. */
+
+#define MIN_TIP_REACH 4.0f /* texels across the receiver's triangle; smaller triangles are not searched */
+enum { MAX_TIP_STEPS = 8 /* 1, 2, 4 .. 128 texels beyond the place */, MAX_TIPS_ASKED = 12 };
+
+/* Position of a place in the view of a face, texels. Returns 0 if it is behind the light. */
+static int place_on_map(float *x, float *y, const lmb_view *v, lmb_vec3 p)
+{
+    const lmb_vec3 d = sub3(p, v->eye);
+    const float unit = v->kind == LMB_PERSPECTIVE ? -dot3(v->back, d) : 1.0f, size = (float)v->frame_width;
+    if (!(unit > 0.0f)) {
+        return 0;
+    }
+    *x = (dot3(v->right, d) / (unit * v->half_width) * 0.5f + 0.5f) * size;
+    *y = (0.5f - dot3(v->up, d) / (unit * v->half_height) * 0.5f) * size;
+    return 1;
+}
+
+/* Depth of a plane over a place of a face: (c + cx x + cy y) / (d + dx x + dy y) m, with x and y in texels. */
+typedef struct map_plane {
+    float c, cx, cy, d, dx, dy;
+} map_plane;
+
+static map_plane plane_over_texels(const lmb_view *v, const lmb_receiver *r)
+{
+    const float size = (float)v->frame_width, right = dot3(r->face, v->right) * v->half_width,
+                up = dot3(r->face, v->up) * v->half_height, ahead = -dot3(r->face, v->back),
+                height = dot3(r->face, sub3(r->position, v->eye)), x = 2.0f * right / size, y = -2.0f * up / size;
+    const map_plane seen = {height, 0.0f, 0.0f, ahead - right + up, x, y},
+                    level = {height + right - up, -x, -y, ahead, 0.0f, 0.0f};
+    return v->kind == LMB_PERSPECTIVE ? seen : level;
+}
+
+/* The places of the corners of triangle `id` in a face. */
+static void find_own_tips(lmb_shadow_query *query, const lit_place *at, uint32_t id)
+{
+    lmb_own_tips *t = &query->tips;
+    lmb_triangle own;
+    t->id = id;
+    t->face = at->face;
+    t->reach = 0.0f;
+    if (lmb_triangle_fetch(&own, query->scene, id) && place_on_map(&t->x[0], &t->y[0], at->view, own.corner[0]) &&
+        place_on_map(&t->x[1], &t->y[1], at->view, own.corner[1]) &&
+        place_on_map(&t->x[2], &t->y[2], at->view, own.corner[2])) {
+        const float wide = maxf(maxf(t->x[0], t->x[1]), t->x[2]) - minf(minf(t->x[0], t->x[1]), t->x[2]),
+                    high = maxf(maxf(t->y[0], t->y[1]), t->y[2]) - minf(minf(t->y[0], t->y[1]), t->y[2]);
+        t->reach = maxf(wide, high);
+    }
+}
+
+/* For a lit receiver whose triangle none of the four texels around the place shows: returns 1 if the tip of another
+ * triangle shadows it. */
+NOINLINE int is_in_tip(lmb_shadow_query *query, const lmb_receiver *r, const lit_place *at)
+{
+    const lmb_view *v = at->view;
+    const float size = (float)v->frame_width, noise = noise_of_receiver(query, r);
+    const lmb_own_tips *own = &query->tips;
+    float x[3], y[3], away[3];
+    uint32_t asked[MAX_TIPS_ASKED], count = 0;
+    if (own->id != r->id || own->face != at->face) {
+        find_own_tips(query, at, r->id);
+    }
+    if (!(own->reach >= MIN_TIP_REACH)) {
+        return 0;
+    }
+    for (int c = 0; c < 3; ++c) {
+        x[c] = at->x - own->x[c];
+        y[c] = at->y - own->y[c];
+        away[c] = x[c] * x[c] + y[c] * y[c];
+    }
+    const map_plane plane = plane_over_texels(v, r);
+    for (int turn = 0; turn < 3; ++turn) { /* the nearest corner first */
+        const int c = away[0] <= away[1] && away[0] <= away[2] ? 0 : away[1] <= away[2] ? 1 : 2;
+        const float scale = 1.0f / maxf(sqrtf(away[c]), 1e-3f);
+        float step = 1.0f;
+        away[c] = FLT_MAX;
+        for (int i = 0; i < MAX_TIP_STEPS && step < own->reach; ++i, step *= 2.0f) {
+            const float to_x = at->x + x[c] * scale * step, to_y = at->y + y[c] * scale * step;
+            if (!(to_x >= 0.0f && to_y >= 0.0f && to_x < size && to_y < size)) {
+                break;
+            }
+            const uint32_t column = (uint32_t)to_x, row = (uint32_t)to_y, id = texel_id(&query->window, column, row);
+            uint32_t k = 0;
+            if (id == r->id) {
+                return 0; /* the light reaches the triangle nearby */
+            }
+            while (k < count && asked[k] != id) {
+                ++k;
+            }
+            if (id == 0 || k < count || k == MAX_TIPS_ASKED) {
+                continue;
+            }
+            const float px = (float)column + 0.5f, py = (float)row + 0.5f;
+            if (lmb_depth_view_z(v, texel_depth(&query->window, column, row)) + noise <
+                (plane.c + plane.cx * px + plane.cy * py) / (plane.d + plane.dx * px + plane.dy * py)) {
+                asked[count++] = id;
+                if (ask_triangle(query, id, r, at, noise) == TEXEL_SHADOWS) {
+                    return 1;
+                }
+            }
+        }
+        if (count == 0) {
+            return 0; /* nothing in front of the receiver's plane */
+        }
+    }
+    return 0;
+}
+
+#endif
 
 int lmb_is_lit(lmb_shadow_query *query, const lmb_receiver *r)
 {
@@ -235,7 +362,7 @@ int lmb_is_lit(lmb_shadow_query *query, const lmb_receiver *r)
     }
 #if LMB_FACETS
     if (!own) {
-        return over || lit_by_depth(query, &at, r, noise) ? LMB_LIT_IN_DOUBT : 0;
+        return (over || lit_by_depth(query, &at, r, noise)) && !is_in_tip(query, r, &at) ? LMB_LIT_IN_DOUBT : 0;
     }
 #endif
     return over || lit_by_depth(query, &at, r, noise);
@@ -245,12 +372,15 @@ int lmb_is_lit(lmb_shadow_query *query, const lmb_receiver *r)
 
 /* --- a tile ------------------------------------------------------------------------------------------------------- */
 
+static lmb_receiver receiver_in_tile(const lmb_tile *tile, int k)
+{
+    const lmb_receiver r = {tile_vec(tile->position, k), tile_vec(tile->face, k), tile->id[k]};
+    return r;
+}
+
 static int is_lit_at(lmb_shadow_query *query, const lmb_tile *tile, int k)
 {
-    lmb_receiver r;
-    r.position = tile_vec(tile->position, k);
-    r.face = tile_vec(tile->face, k);
-    r.id = tile->id[k];
+    const lmb_receiver r = receiver_in_tile(tile, k);
     return lmb_is_lit(query, &r);
 }
 
@@ -364,6 +494,24 @@ typedef struct shadow_lit {
     uint32_t lit, doubtful, unclear;
 } shadow_lit;
 
+#if LMB_FACETS
+/* Returns the pixels that tips of triangles shadow, among lit ones around which the map shows only other triangles. */
+NOINLINE uint32_t in_tips(lmb_shadow_query *query, const lmb_tile *tile, int first, uint32_t doubtful)
+{
+    uint32_t out = 0;
+    for (; doubtful != 0; doubtful &= doubtful - 1) {
+        const int k = lowest_bit(doubtful);
+        const lmb_receiver r = receiver_in_tile(tile, first + k);
+        lit_place at;
+        if (find_place(&at, query->map, query->light, r.position)) {
+            use_face(query, &at);
+            out |= (uint32_t)is_in_tip(query, &r, &at) << k;
+        }
+    }
+    return out;
+}
+#endif
+
 NOINLINE shadow_lit lit_of_some(const lmb_shadow_query *query, const lmb_kernels *kernels, const lmb_tile *tile,
                                 int first, uint32_t asked)
 {
@@ -398,7 +546,14 @@ uint64_t lmb_shadow_lit(uint64_t *doubtful, lmb_shadow_query *query, const lmb_k
     *doubtful = 0;
     for (int first = 0; first < LMB_TILE_PIXELS && !nested; first += LMB_SHADOW_PIXELS) {
         const uint32_t some = (uint32_t)(asked >> first) & ((1u << LMB_SHADOW_PIXELS) - 1);
-        const shadow_lit l = lit_of_some(query, kernels, tile, first, some);
+        shadow_lit l = lit_of_some(query, kernels, tile, first, some);
+#if LMB_FACETS
+        if (l.doubtful != 0) { /* not in lit_of_some, which takes much stack */
+            const uint32_t dark = in_tips(query, tile, first, l.doubtful);
+            l.lit &= ~dark;
+            l.doubtful &= ~dark;
+        }
+#endif
         out |= (uint64_t)l.lit << first;
         *doubtful |= (uint64_t)l.doubtful << first;
         unclear |= (uint64_t)l.unclear << first;

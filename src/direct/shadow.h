@@ -15,6 +15,15 @@ typedef struct lmb_receiver {
 /* The answer in builds with LMB_FACETS for a lit point whose triangle none of the four texels around it names. */
 enum { LMB_LIT_IN_DOUBT = 2 };
 
+#if LMB_FACETS
+/* A triangle in a face of the map. */
+typedef struct lmb_own_tips {
+    uint32_t id; /* 0: none */
+    int32_t face;
+    float x[3], y[3], reach; /* texels; reach: 0 if the triangle is not in front of the light */
+} lmb_own_tips;
+#endif
+
 /* The shadow map of one light, for any number of points that a view sees. */
 typedef struct lmb_shadow_query {
     const lmb_shadow_map *map;
@@ -23,6 +32,9 @@ typedef struct lmb_shadow_query {
     const lmb_view *view;
     lmb_fill_window window; /* of the last face used */
     int32_t face;           /* -1: none */
+#if LMB_FACETS
+    lmb_own_tips tips; /* of the last receiver that needed them */
+#endif
 } lmb_shadow_query;
 
 void lmb_shadow_ask(lmb_shadow_query *out, const lmb_shadow_map *map, const lmb_light *light, const lmb_scene *scene,
