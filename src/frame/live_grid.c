@@ -13,6 +13,8 @@
 
 #define STRAY     1.6f  /* max standard deviations between two shares that count as equal */
 #define EDGE      1.0f  /* error, as a share of the light's change over a cell with several surfaces */
+#define STEEP     4.0f  /* times the least light of a cell of 2 px: a steep cell has more */
+#define STEEPER   16.0f /* times split x mean^2: the change^2 of a steep cell is larger */
 #define LEAST     0.02f /* min of p (1 - p): shares of 0 and 1 are uncertain too */
 #define FLAT_TURN 1e-3f /* max difference between a flat tile's normals and the plane's, each axis */
 #define ALL_SAMPLES 0xffffu /* of a tile */
@@ -634,6 +636,36 @@ uint64_t lmb_live_grid_fill(lmb_irradiance *out, const lmb_kernels *kernels, con
         }
     }
     return left;
+}
+
+/* Does the light change so much over a cell of 2 px that its pixels need light of their own? */
+static int has_steep_light(const live_grid *g, int32_t x, int32_t y)
+{
+    float low = 3e38f, high = 0.0f;
+    cell c;
+    set_cell(&c, g, x, y, GRID_STEP);
+    for (int i = 0; i < 4; ++i) {
+        if (c.corner[i] != NULL) {
+            low = minf(low, all_of(c.corner[i]->light));
+            high = maxf(high, all_of(c.corner[i]->light));
+        }
+    }
+    const float change = (high - low) * (1.0f / 3.0f);
+    return high > STEEP * low && change * change > STEEPER * g->split * g->mean * g->mean;
+}
+
+uint64_t lmb_live_grid_steep(const live_grid *g, const lmb_tile *tile)
+{
+    const live_grid_tile *t = grid_tile(g, tile->x / LMB_TILE, tile->y / LMB_TILE);
+    uint64_t out = 0;
+    for (int i = 0; i < GRID_SAMPLES && t->parts != 0; ++i) {
+        const int32_t x = i % GRID_SIDE * GRID_STEP, y = i / GRID_SIDE * GRID_STEP;
+        const int part = y / (LMB_TILE / 2) * 2 + x / (LMB_TILE / 2);
+        if ((t->parts >> part & 1) != 0 && has_steep_light(g, tile->x + x, tile->y + y)) {
+            out |= square(x, y, GRID_STEP) & ~((uint64_t)1 << grid_pixel(i));
+        }
+    }
+    return out & tile_pixels(tile);
 }
 
 #endif

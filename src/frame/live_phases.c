@@ -374,6 +374,26 @@ static void set_sources(sources *out, const live_grid *g, const lmb_tile *tile, 
     }
 }
 
+ALWAYS_INLINE lmb_status light_pixel(lmb_irradiance *out, const lmb_render *r, lmb_band_scratch *s, int k)
+{
+    lmb_live_sample own = lmb_live_grid_surface(&s->tile, k);
+    own.position = lmb_place_onto_triangle(r->frame.scene, own.id, own.position);
+    const lmb_status status = light_sample(r, s, &own, s->tile.x + k % LMB_TILE, s->tile.y + k / LMB_TILE);
+    for (int c = 0; c < 3; ++c) {
+        out->rgb[c][k] = own.light[c];
+    }
+    return status;
+}
+
+NOINLINE lmb_status light_steep(lmb_irradiance *inout, const lmb_render *r, lmb_band_scratch *s, uint64_t steep)
+{
+    lmb_status status = LMB_OK;
+    for (; steep != 0 && status == LMB_OK; steep &= steep - 1) {
+        status = light_pixel(inout, r, s, lowest_bit_64(steep));
+    }
+    return status;
+}
+
 /* Lights some of the remaining pixels individually, so that each pixel has a source within reach. */
 static lmb_status light_left(lmb_irradiance *inout, const lmb_render *r, lmb_band_scratch *s, const live_grid *g,
                              uint64_t left)
@@ -385,12 +405,7 @@ static lmb_status light_left(lmb_irradiance *inout, const lmb_render *r, lmb_ban
     for (uint64_t bits = left; bits != 0 && status == LMB_OK; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
         if (!(around_of(&from, k).sum > 0.0f)) {
-            lmb_live_sample own = lmb_live_grid_surface(from.tile, k);
-            own.position = lmb_place_onto_triangle(r->frame.scene, own.id, own.position);
-            status = light_sample(r, s, &own, s->tile.x + k % LMB_TILE, s->tile.y + k / LMB_TILE);
-            for (int c = 0; c < 3; ++c) {
-                inout->rgb[c][k] = own.light[c];
-            }
+            status = light_pixel(inout, r, s, k);
             from.known |= (uint64_t)1 << k;
         }
     }
@@ -414,7 +429,8 @@ lmb_status lmb_render_live_tile(lmb_irradiance *out, const lmb_render *r, lmb_ba
         return LMB_OK;
     }
     const uint64_t left = lmb_live_grid_fill(out, r->frame.kernels, &g, &s->tile);
-    return left != 0 ? light_left(out, r, s, &g, left) : LMB_OK;
+    const lmb_status status = left != 0 ? light_left(out, r, s, &g, left) : LMB_OK;
+    return status == LMB_OK ? light_steep(out, r, s, lmb_live_grid_steep(&g, &s->tile)) : status;
 }
 
 #endif

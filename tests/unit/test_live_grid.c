@@ -104,6 +104,32 @@ static void test_agreement(const lmb_kernels *kernels)
     }
 }
 
+/* Beside a line that is over four times as bright, pixels between the closest samples are lit on their own. */
+static void test_steep(void)
+{
+    static const struct {
+        float bright;
+        uint8_t parts;
+        uint64_t steep;
+    } cases[] = {{30.0f, 15, 0x0000ffaaffaa0000}, {30.0f, 5, 0x00000f0a0f0a0000}, {3.0f, 15, 0}, {30.0f, 0, 0}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+        put_wall(1000);
+        grid.mean = 1.0f;
+        grid.tile[0].divided = 1;
+        grid.tile[0].parts = cases[i].parts;
+        grid.tile[0].known = 0xffff;
+        for (int k = 0; k < GRID_SAMPLES; ++k) {
+            lmb_live_sample *s = grid_sample(&grid, &grid.tile[0], k);
+            *s = lmb_live_grid_surface(&tile[0], grid_pixel(k));
+            for (int c = 0; c < 3; ++c) {
+                s->light[c] = k / GRID_SIDE == 2 ? cases[i].bright : 1.0f;
+            }
+        }
+        const uint64_t steep = lmb_live_grid_steep(&grid, &tile[0]);
+        CHECK_MSG(steep == cases[i].steep, "case %d: %08x%08x", (int)i, (unsigned)(steep >> 32), (unsigned)steep);
+    }
+}
+
 /* Evaluates the samples of a level. Returns their number. */
 static int light_level(int32_t level, light_at at)
 {
@@ -328,6 +354,7 @@ static void test_backends(void)
 void test_live_grid(void)
 {
     test_even();
+    test_steep();
     for (int i = 0; lmb_kernels_at(i) != NULL; ++i) {
         test_agreement(lmb_kernels_at(i));
     }
