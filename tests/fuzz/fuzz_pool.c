@@ -100,7 +100,7 @@ static kind kinds[] = {
     ONE(lmb_world_pictures), ONE(lmb_world_query), MANY(lmb_light, POOL_LIGHTS), MANY(lmb_shadow_map, POOL_MAPS),
     MANY(lmb_texel, POOL_TEXELS), MANY(lmb_vec3, POOL_PLACES), MANY(lmb_voxel_part, POOL_PARTS),
     MANY(lmb_cluster, POOL_CLUSTERS), MANY(lmb_bins, POOL_BINS), ONE(lmb_draw_target), ONE(lmb_draw_state),
-    ONE(lmb_draw_vertices), ONE(lmb_draw_indices),
+    ONE(lmb_draw_vertices), ONE(lmb_draw_indices), ONE(lmb_draw_pixels_of), ONE(lmb_draw_fragment_at),
     ONE(lmb_draw_lighting), ONE(lmb_draw_lit), ONE(lmb_blit_image), ONE(lmb_blit_how), ONE(lmb_mat4),
     ONE(lmb_triangle), ONE(lmb_vertex),
 };

@@ -39,7 +39,7 @@ for to in "$here" "$there"; do
 done
 plain="-DLMB_HAVE_AVX512=0 -DLMB_HAVE_AVX2=0 -DLMB_HAVE_SSE2=0" # as in tiny.sh
 check "for this machine" $MAKE "$here/statue" PORT=host CONFIG=tiny BUILD="$BUILD/plain" ONE_UNIT=1 CFLAGS="-O1 $plain"
-m='PORT=cortex-m CONFIG=tiny ONE_UNIT=1 CFLAGS=-Os LDFLAGS=' # as in tiny.sh
+m='PORT=cortex-m CONFIG=tiny CFLAGS=-Os LDFLAGS='
 check "for a Cortex-M" $MAKE "$there/statue" $m BUILD="$BUILD/cortex-m"
 [ $failed -eq 0 ] || finish
 

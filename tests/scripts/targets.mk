@@ -108,7 +108,7 @@ how_clang-riscv64    = CC="clang --target=riscv64-linux-gnu -isystem /usr/riscv6
 
 needs_cortex-m4f := arm-none-eabi-gcc qemu-system-arm
 # The same build as `make tiny`. cortex-m7 and m55 have the default configuration.
-how_cortex-m4f   := PORT=cortex-m CONFIG=tiny ONE_UNIT=1 CFLAGS=-Os LDFLAGS= $(call some,2)
+how_cortex-m4f   := PORT=cortex-m CONFIG=tiny CFLAGS=-Os LDFLAGS= $(call some,2)
 needs_cortex-m7  := $(needs_cortex-m4f)
 how_cortex-m7    := PORT=cortex-m CORE=m7
 needs_cortex-m55 := $(needs_cortex-m4f)

@@ -9,13 +9,13 @@ if ! missing=$(sh tests/scripts/tools.sh need arm-none-eabi-gcc qemu-system-arm 
     exit 1
 fi
 
-# Only the pictures count, so the library is one unit. The build for this machine is plain C, also in statue.sh, live.sh
-# and `make examples-tiny`.
+# Here only the pictures count, so this build is plain C in one unit; statue.sh, live.sh and `make examples-tiny`
+# share it.
 plain="-DLMB_HAVE_AVX512=0 -DLMB_HAVE_AVX2=0 -DLMB_HAVE_SSE2=0"
 make_here() { $MAKE "$@" PORT=host CONFIG=tiny BUILD="$BUILD/plain" ONE_UNIT=1 CFLAGS="-O1 $plain"; }
 here=$BUILD/plain/tiny
 check "the demo for this machine" make_here "$here/demo"
-make_there() { $MAKE "$@" PORT=cortex-m CONFIG=tiny BUILD="$BUILD/cortex-m" ONE_UNIT=1 CFLAGS=-Os LDFLAGS=; }
+make_there() { $MAKE "$@" PORT=cortex-m CONFIG=tiny BUILD="$BUILD/cortex-m" CFLAGS=-Os LDFLAGS=; }
 check "the demo for a Cortex-M4F" make_there "$BUILD/cortex-m/tiny/demo"
 [ $failed -eq 0 ] || finish
 
