@@ -546,18 +546,19 @@ uint64_t lmb_shadow_lit(uint64_t *doubtful, lmb_shadow_query *query, const lmb_k
     *doubtful = 0;
     for (int first = 0; first < LMB_TILE_PIXELS && !nested; first += LMB_SHADOW_PIXELS) {
         const uint32_t some = (uint32_t)(asked >> first) & ((1u << LMB_SHADOW_PIXELS) - 1);
-        shadow_lit l = lit_of_some(query, kernels, tile, first, some);
-#if LMB_FACETS
-        if (l.doubtful != 0) { /* not in lit_of_some, which takes much stack */
-            const uint32_t dark = in_tips(query, tile, first, l.doubtful);
-            l.lit &= ~dark;
-            l.doubtful &= ~dark;
-        }
-#endif
+        const shadow_lit l = lit_of_some(query, kernels, tile, first, some);
         out |= (uint64_t)l.lit << first;
         *doubtful |= (uint64_t)l.doubtful << first;
         unclear |= (uint64_t)l.unclear << first;
     }
+#if LMB_FACETS
+    for (int first = 0; first < LMB_TILE_PIXELS && *doubtful != 0; first += LMB_SHADOW_PIXELS) {
+        const uint32_t some = (uint32_t)(*doubtful >> first) & ((1u << LMB_SHADOW_PIXELS) - 1);
+        const uint64_t dark = some != 0 ? (uint64_t)in_tips(query, tile, first, some) << first : 0;
+        out &= ~dark;
+        *doubtful &= ~dark;
+    }
+#endif
     for (; unclear != 0; unclear &= unclear - 1) {
         const int k = lowest_bit_64(unclear), lit = is_lit_at(query, tile, k);
         out |= (uint64_t)(lit != 0) << k;
