@@ -39,23 +39,12 @@ static inline void counted_lane_store_rows(float *p, int32_t step, lane a)
     lane_store_rows(p, step, a);
 }
 
-/* Gathers: four floats, or one. */
-static inline void counted_lane_gather_rgba_f32(lane out[4], const float *p, lanei at)
-{
-    reads += LANES;
-    for (int c = 0; c < 4; ++c) {
-        out[c] = lane_gather_f32(p + c, lanei_mul(at, lanei_splat(4)));
-    }
-}
-
 static inline lane counted_lane_gather_f32(const float *p, lanei at)
 {
     reads += LANES;
     return lane_gather_f32(p, at);
 }
 
-#define LANE_GATHERS_RGBA_F32 1
-#define lane_gather_rgba_f32 counted_lane_gather_rgba_f32
 #define lane_gather_f32 counted_lane_gather_f32
 
 #define lane_mul counted_lane_mul
