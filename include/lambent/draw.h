@@ -305,8 +305,8 @@ lmb_status lmb_draw_list(const lmb_draw_target *target, const lmb_draw_state *st
  * if `pixels` has no job or `k` is outside. */
 void lmb_draw_fragment(lmb_draw_fragment_at *out, const lmb_draw_pixels_of *pixels, int32_t k);
 
-/* lmb_draw_shares: the shares of all pixels of the mask at once, equal to those of lmb_draw_fragment. Sets no other
- * pixels, or sets them to any value. */
+/* lmb_draw_shares: the shares of all pixels of the mask at once, equal to those of lmb_draw_fragment. Values
+ * of other pixels are undefined. */
 void lmb_draw_shares(float out[2][64], const lmb_draw_pixels_of *pixels);
 #endif
 

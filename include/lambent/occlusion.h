@@ -169,8 +169,8 @@ float lmb_tile_noise(const lmb_tile *tile, uint64_t pixels);
  *
  * A bounded traversal has LMB_TRAVERSAL_SUN_FIRST tests for such rays, and each call adds LMB_TRAVERSAL_SUN_EACH, once
  * and for each of its pixels. While none are left, a call traces no ray and repeats the answers of the last call that
- * did. A pixel that this call did not trace gets the answer of the next pixel that it traced. So ask similar directions
- * one after another. */
+ * traced rays. A pixel that was not traced there gets the answer of the next pixel that was. Ask similar directions one
+ * after another. */
 uint64_t lmb_occluded_sun(const lmb_kernels *kernels, lmb_traversal *traversal, const lmb_bvh *bvh,
                           const lmb_tile *tile, uint64_t pixels, lmb_vec3 to);
 

@@ -269,7 +269,7 @@ void gl_light_vertex(gl_context *c, const gl_vertex *v, gl_made *made)
 
 /* --- colours of many vertices ------------------------------------------------------------------------------------- */
 
-/* What the vertices share of a light. Far: no vertex changes its direction. */
+/* What the vertices share of a light. Far: the direction is the same for all vertices. */
 typedef struct light_lamp {
     const gl_light *light;
     int is_far;
@@ -366,7 +366,7 @@ static void light_four_add(const gl_context *c, const light_lamp *lamp, light_fo
     for (int i = 0; i < 3; ++i) {
         dull &= v->specular[i] * l->specular[i] == zero;
     }
-    const int is_shiny = !v->is_short || !four_all(dull); /* otherwise the highlight is finite, times 0 */
+    const int is_shiny = !v->is_short || !four_all(dull); /* otherwise it is finite and has no colour */
     const four highlight = is_shiny ? light_four_highlight(c, lamp, v, to, facing) : zero;
     for (int i = 0; i < 3; ++i) {
         four sum = v->colour[i] + share * (v->ambient[i] * l->ambient[i] + faced * v->diffuse[i] * l->diffuse[i]);
@@ -377,7 +377,7 @@ static void light_four_add(const gl_context *c, const light_lamp *lamp, light_fo
     }
 }
 
-/* A value of four vertices' materials, or of one material. */
+/* Sets the materials of four vertices. */
 static void light_four_material(light_four *v, const gl_material *const m[FOUR])
 {
     float of[14][FOUR];

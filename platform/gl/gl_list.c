@@ -73,7 +73,7 @@ void gl_list_vertex(gl_context *c, const float at[4])
     gl_word *run = c->list_run;
     if (run != NULL && (run->u & 0xffffu) == (uint32_t)op && k->used + 4 <= k->cap &&
         list_words(run) + words <= LIST_MOST_WORDS) {
-        memcpy(&k->word[k->used], at, 4 * sizeof *at); /* the next operation replaces a w that is left out */
+        memcpy(&k->word[k->used], at, 4 * sizeof *at); /* the fourth is scratch if w is left out: the next operation overwrites it */
         k->used += words;
         run->u += (uint32_t)words << 16;
     } else {
@@ -192,11 +192,13 @@ void glNewList(GLuint name, GLenum mode)
     GL_FAIL(mode != GL_COMPILE && mode != GL_COMPILE_AND_EXECUTE, GL_INVALID_ENUM, )
     GL_FAIL(c->list_mode != 0, GL_INVALID_OPERATION, )
     gl_list *old = gl_find(&c->group->lists, name);
-    if (old != NULL && mode == GL_COMPILE && c->group->users == 1) {
-        list_clear(c, old); /* nothing can call it until glEndList, and the new list takes its memory */
-    }
     gl_list *list = gl_alloc(c, sizeof *list);
     if (list != NULL) {
+        /* This context cannot call it until glEndList, and the new list takes its memory. A context that is made in
+         * between, and shares lists, finds it empty. */
+        if (old != NULL && mode == GL_COMPILE && c->group->users == 1) {
+            list_clear(c, old);
+        }
         list->name = name;
         list->first = NULL;
         c->list = list;

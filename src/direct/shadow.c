@@ -270,8 +270,8 @@ static void find_own_tips(lmb_shadow_query *query, const lit_place *at, uint32_t
     }
 }
 
-/* For a lit receiver whose triangle none of the four texels around the place shows: returns 1 if the tip of another
- * triangle shadows it. */
+/* Returns 1 if the tip of another triangle shadows the receiver. Call it if none of the four texels around the place
+ * shows the receiver's own triangle. */
 NOINLINE int is_in_tip(lmb_shadow_query *query, const lmb_receiver *r, const lit_place *at)
 {
     const lmb_view *v = at->view;

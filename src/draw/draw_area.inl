@@ -4,8 +4,8 @@
 
 #if !defined(LANE_PLAIN)
 #if LANES > LMB_TILE
-/* Draws pixels of one colour whose depths are less than the stored ones. No branch: processors mispredict how many rows
- * of a tile have pixels. */
+/* Draws pixels of one colour whose depths are less than the stored ones. No branch for empty rows, because
+ * processors mispredict how many rows of a tile have pixels. */
 LANE_INLINE void area_tile_usual(const lmb_draw_patch *p, uint64_t mask, lanei same)
 {
     const lane low = lane_splat(p->d_min), high = lane_splat(p->d_max);
@@ -96,8 +96,8 @@ static void KERNEL(area_set)(area_walk *w, const lmb_draw_area *a)
     }
 }
 
-/* The pixels of a tile that are inside all edges, which are e at the first pixel. A tile that is far inside an edge is
- * so everywhere, and sums fit 32 bits. */
+/* The pixels of a tile that are inside all edges, which are e at the first pixel. Values over
+ * AREA_FAR are limited to it: such a tile is inside the edge at all pixels, and sums then fit 32 bits. */
 LANE_INLINE uint64_t area_covered(const area_walk *w, int64_t e0, int64_t e1, int64_t e2)
 {
     uint64_t mask = 0;

@@ -13,8 +13,8 @@
 
 #define STRAY     1.6f  /* max standard deviations between two shares that count as equal */
 #define EDGE      1.0f  /* error, as a share of the light's change over a cell with several surfaces */
-#define STEEP     4.0f  /* times the least light of a cell of 2 px: a steep cell has more */
-#define STEEPER   16.0f /* times split x mean^2: the change^2 of a steep cell is larger */
+#define STEEP     4.0f  /* a cell of 2 px is steep if its brightest corner has more than this times the darkest */
+#define STEEPER   16.0f /* and if the change^2 of its light is more than this times split x mean^2 */
 #define LEAST     0.02f /* min of p (1 - p): shares of 0 and 1 are uncertain too */
 #define FLAT_TURN 1e-3f /* max difference between a flat tile's normals and the plane's, each axis */
 #define ALL_SAMPLES 0xffffu /* of a tile */

@@ -79,7 +79,7 @@ void lmb_live_grid_slopes(const live_grid *g, int32_t column, int32_t row);
 /* Lights a tile's pixels between the samples. Returns the mask of pixels that no sample explains. */
 uint64_t lmb_live_grid_fill(lmb_irradiance *out, const lmb_kernels *kernels, const live_grid *g, const lmb_tile *tile);
 
-/* Pixels that need light of their own: those between the closest samples if their light differs much. A bright surface
+/* Pixels that need light of their own: those between samples 2 px apart in a steep cell. A bright surface
  * behind a slit is a line of a pixel, and a sample on the line would light the dark pixels beside it. */
 uint64_t lmb_live_grid_steep(const live_grid *g, const lmb_tile *tile);
 

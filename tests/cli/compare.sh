@@ -24,6 +24,10 @@ status 0 compare vast.pfm white.pfm
 check "a figure of 1e25 is printed" grep -q '^trim 1e+25 rmse 1e+25 ' out.txt
 status 0 compare faint.pfm black.pfm
 check "faint errors relative to black have no value" grep -qx 'trim - rmse - (n90 [0-9]*) e50 - e95 - e99 - worst - mean -' out.txt
+{ printf 'PF\n2 1\n-1\n'; printf '\000\000\000\277%.0s' 1 2 3 4 5 6; } >negative.pfm
+for bound in trim rmse e50 worst hi; do
+    check "--max $bound holds for a negative truth" sh -c '! "$@" >/dev/null' sh "$TOOL" compare white.pfm negative.pfm --max $bound=0.1
+done
 status 0 compare black.pfm white.pfm
 check "the worst pixel is the first of equal ones" grep -q ' worst 0.990[0-9]* at 0,0 mean 0.0000$' out.txt
 check "--max worst bounds it" sh -c '! "$1" compare white.pfm black.pfm --max worst=9' sh "$TOOL"

@@ -161,7 +161,7 @@ for out in room room.baked room.lmt ROOM.LMT png .lmt x.png.lmt; do
     status 0 bake box.obj --elements 64 --receivers 64 -q -o "$out"
     check "$out is a transfer" cmp -s "$out" room
 done
-misused "x.pfm: both -o and --stats; give them names of their own" render demo -o x.pfm --stats x.pfm
+misused "x.pfm: both -o and --stats; give each another name" render demo -o x.pfm --stats x.pfm
 misused "both -o and --stats" render demo -o x.pfm --stats ./x.pfm
 ln -s y.pfm x-link.pfm && : >y.pfm
 misused "both -o and --stats" render demo -o y.pfm --stats x-link.pfm

@@ -158,7 +158,7 @@ status 2 mix $seen $two --turn 1 --turn 2 --turn 3 -o x.png
 said "--object and --turn: 2 and 3 of them; give one --turn, or each object one"
 for extra in "--voxels 7" "--cones 19"; do
     status 2 mix $seen $two $extra -o x.png
-    said "several --object: their light needs no voxels; leave --voxels and --cones out"
+    said "--voxels and --cones apply only to one --object; leave them out"
 done
 for extra in "--show delta" "--stats x.json" "--roughness 0.2" "--frames set/list.txt" "--placements set/list.txt"; do
     status 2 mix $seen $two -o x.png $extra

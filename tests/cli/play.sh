@@ -78,7 +78,7 @@ for way in "--gather full --quality draft" "--gather live" "--transfer box.lmt" 
     check "$way: a frame of a changing world is the same alone" cmp tone1.pfm alone1.pfm
 done
 status 0 play box.obj $rests --quality draft --world tone_%02d.pfm --world-every 2 --frames 4
-check "that the world stays is told" holds "tone_%02d.pfm has 2 files: from frame 2 on the world stays" err.txt
+check "that the world stays is told" holds "tone_%02d.pfm ends after number 4: from frame 2 on the world stays" err.txt
 # sun ROW COLUMN: a world of radiance 1 with a lamp in one of 32 x 192 texels. Rows count from the top, unlike in a PFM.
 row=$one$one$one$one; row=$row$row$row; row=$row$row$row$row$row$row$row$row
 sun() {
@@ -121,7 +121,7 @@ said "--world-every needs a numbered --world"
 status 2 play demo --world tone_%02d.pfm -o tone_%02d.pfm
 said "tone_%02d.pfm: both --world and -o"
 status 1 play demo --world none_%02d.pfm
-said "none_%02d.pfm: no file of this pattern with a number from 0 to 9999"
+said "none_%02d.pfm: no world of this name with a number from 0 to 9999"
 echo "0 light:0 0,1,0 0,0,0" >sun.txt
 status 1 play box.obj --world near_%01d.pfm --path sun.txt --frames 1
 said "light:0 is the sun of a numbered --world, which moves by itself"

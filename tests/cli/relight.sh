@@ -90,7 +90,7 @@ said "numbered files are one world that changes; give no other"
 status 2 $changes --world tone_%02d.pfm --path rests.txt -o tone_%02d.pfm
 said "tone_%02d.pfm: both --world and -o"
 status 1 $changes --world none_%02d.pfm --path rests.txt -o bad.pfm
-said "none_%02d.pfm: no file of this pattern with a number from 0 to 9999"
+said "none_%02d.pfm: no world of this name with a number from 0 to 9999"
 printf '0,0,0\n0,0,0 between.pfm\n' >named.txt
 status 1 $changes --world tone_%02d.pfm --path named.txt -o bad.pfm
 said "named.txt: names a world, and a numbered --world already changes"
@@ -246,6 +246,10 @@ fi
 
 # Files for other programs: a white world has lobes of 1, and harmonics of one constant. A
 # transform image gives its map.
+for out in - hdr:-; do
+    status 2 relight --world white.pfm --lobes $out
+    said "--lobes writes six files: give it a file name"
+done
 status 0 relight --world white.pfm --lobes lobe_%02d.pfm --side 16 --harmonics harmonics.json --dfg dfg.pfm --map own.pfm --map-height 16 --azimuth -90 --save-vectors vectors.pfm
 for k in 00 01 02 03 04 05; do
     check "lobe $k of a white world is white" sh -c '"$1" info "$2" | grep -cE "min (1|0.99999.*) .*max (1|1.00000.*) " | grep -qx 3' sh "$TOOL" "lobe_$k.pfm"

@@ -72,7 +72,7 @@ int options_files(const void *out, const option_table *t, report *r)
         const char *name = name_of(out, row, OPTION_WRITES);
         const option_row *same = name != NULL ? find_same(out, t, i, name) : NULL;
         if (same != NULL) {
-            return report_fail_usage(r, "%s: both %s and %s; give them names of their own", name, same->name,
+            return report_fail_usage(r, "%s: both %s and %s; give each another name", name, same->name,
                                      row->name);
         }
         if (name != NULL && !check_output(row, name, r)) {

@@ -304,7 +304,7 @@ static int complete_objects(const mix_options *o, report *r)
         }
     }
     if (n > 1 && (o->depth > 0 || o->cones > 0)) {
-        return report_fail(r, "several --object: their light needs no voxels; leave --voxels and --cones out");
+        return report_fail(r, "--voxels and --cones apply only to one --object; leave them out");
     }
     return n < 2 || (o->frames == NULL && o->stats == NULL && o->show == MIX_FINAL && !(o->specular > 0.0f)) ||
            report_fail(r, "several --object: leave --frames, --stats, --show and --roughness out");

@@ -46,12 +46,12 @@ static sample sample_at(const metrics_input *in, size_t i)
     return s;
 }
 
-/* Error relative to the truth, plus a hundredth of the mean truth so that dark pixels do not dominate. Equal values
- * have no error even if a negative truth makes the denominator 0, so that no NaN reaches a sort. */
+/* Error relative to the truth, plus a hundredth of the mean truth so that dark pixels do not dominate. A negative truth
+ * counts as black, so the error is never negative. */
 static double relative_error(sample s, double truth_mean)
 {
     double apart = fabs(s.test - s.truth);
-    return apart == 0.0 ? 0.0 : apart / (s.truth + 0.01 * truth_mean);
+    return apart == 0.0 ? 0.0 : apart / ((s.truth > 0.0 ? s.truth : 0.0) + 0.01 * truth_mean);
 }
 
 static int ascending(const void *a, const void *b)
@@ -85,7 +85,7 @@ static int gather(metrics *out, double *errors, const metrics_input *in, report 
                            "against them", (double)bad, (int)(first_bad % (size_t)in->width),
                            (int)(first_bad / (size_t)in->width));
     out->truth_mean = truth_sum / (double)out->pixels;
-    if (out->truth_mean == 0.0)
+    if (!(out->truth_mean > 0.0))
         out->truth_mean = METRICS_BLACK;
     out->mean = test_sum / (double)out->pixels / out->truth_mean;
     return 1;

@@ -7,7 +7,7 @@
 #include "../common/report.h"
 
 #define METRICS_DARK 3.0f /* the class of pixels with indirect light under 1 % of the mean */
-#define METRICS_BLACK 1e-30 /* mean of an all-black truth, so that nothing is divided by 0 */
+#define METRICS_BLACK 1e-30 /* mean of a truth without light, so that nothing is divided by 0 */
 #define METRICS_MIN_DARK 21 /* fewest dark pixels for leak; a mean of fewer is meaningless */
 
 /* The images to compare: equal size, rows from the top. Nothing here is owned or written. */
@@ -26,7 +26,7 @@ typedef struct metrics {
     double e50, e95, e99; /* percentiles of |a - b| / (b + 0.01 mean truth), grey */
     double mean;         /* mean test / mean truth, grey */
     double leak;         /* the same over dark pixels, both sums raised by 1e-4 mean truth per pixel; see has_leak */
-    double truth_mean;   /* grey; METRICS_BLACK for an all-black truth */
+    double truth_mean;   /* grey; METRICS_BLACK for a truth without light */
     uint64_t n90;        /* the fewest pixels that have 90 % of the squared error */
     uint64_t pixels, dark, nonfinite;
     int has_leak;        /* 0: fewer than METRICS_MIN_DARK dark pixels; leak is 0 and has no meaning */

@@ -29,7 +29,7 @@ int world_series_find(world_series *out, const char *pattern, report *r)
     while (out->count < MOST && world_series_name(name, sizeof name, out, out->count, r) && world_is_there(name)) {
         ++out->count;
     }
-    return out->count > 0 || report_fail(r, "%s: no file of this pattern with a number from 0 to %d", pattern,
+    return out->count > 0 || report_fail(r, "%s: no world of this name with a number from 0 to %d", pattern,
                                          MOST_FIRST);
 }
 

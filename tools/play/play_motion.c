@@ -98,7 +98,8 @@ static int find_room(play_motion *m, report *r)
     int ok = play_space_make(&space, s, m->options->render.kernels, r);
     for (uint32_t i = 0; ok && (m->moves & KEY_LIGHT) != 0 && i < s->light_count; ++i) {
         m->radius[i] = is_pictured(m->job, i) ? 0.0f : room_for_light(&space, s, &m->light_at_rest[i]);
-        report_note(is_quiet || m->radius[i] > 0.0f, "light %u stands still: %s", (unsigned)i,
+        const int is_followed = is_pictured(m->job, i) && m->job->o.world_changes; /* the files move it */
+        report_note(is_quiet || m->radius[i] > 0.0f || is_followed, "light %u stands still: %s", (unsigned)i,
                     is_pictured(m->job, i) ? "it is the sun of --world"
                                            : "surfaces are too near for a circle; --path FILE moves it");
         report_note(!m->options->render.view.is_verbose || m->radius[i] <= 0.0f, "light %u moves by %.3g%s",
@@ -346,7 +347,7 @@ static int check_track(const play_motion *m, const key_track *t, report *r)
                            (unsigned)t->line, names[t->what], (unsigned)t->index, (unsigned)count);
     }
     if (t->what == KEY_LIGHT && is_sun(&m->light[t->index]) && !m->path.key[t->first].has_target) {
-        return report_fail(r, "%s: line %u: light:%u is a sun, which has a direction alone; give its keys a target",
+        return report_fail(r, "%s: line %u: light:%u is a sun, which has only a direction; give its keys a target",
                            m->options->path, (unsigned)t->line, (unsigned)t->index);
     }
     if (t->what == KEY_LIGHT && m->job->o.world_changes && t->index >= m->job->own_lights) {

@@ -41,9 +41,9 @@ static const option_row play_rows[] = {
     {.name = "--fps", .value = "F", .kind = OPTION_ABOVE, AT(fps), .low = 0.0, .high = 1e5,
      .help = "frames per second of the path: frame k is at k / F seconds (default 30)"},
     {.name = "--world-every", .value = "N", .kind = OPTION_INT, AT(world_every), .low = 1, .high = MOST,
-     .help = "with a numbered --world, as sky_%03d.hdr: frames from one file to the next, between which the world is "
-             "blended (default 1: a file a frame). Numbers begin with the lowest that exists, at frame 0; the last "
-             "file stays. Suns within 20 degrees of each other move"},
+     .help = "with a numbered --world, such as sky_%03d.hdr: number of frames from one file to the next; the world is "
+             "blended in between (default 1: a file a frame). The lowest number that exists is frame 0, a missing "
+             "number ends the series, and the last file stays. Suns within 20 degrees of each other move"},
     {.name = "--check", .value = "K", .kind = OPTION_INT, AT(check), .low = 1, .high = MOST,
      .help = "each Kth frame's error against the same frame by --quality best and --gather full, as in `lambent "
              "compare`"},

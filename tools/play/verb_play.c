@@ -156,8 +156,8 @@ static void tell_end(const play *p)
     const double stays = (double)(p->world.series.count - 1) * (double)every_of(p);
     const int is_changed = (double)(p->o.from + p->o.frames - 1) > stays;
     report_note(p->o.render.view.is_quiet || p->world.series.count == 0 || !is_changed,
-                "note: %s has %d files: from frame %.0f on the world stays", p->world.series.pattern,
-                (int)p->world.series.count, stays);
+                "note: %s ends after number %d: from frame %.0f on the world stays", p->world.series.pattern,
+                (int)(p->world.series.first + p->world.series.count - 1), stays);
     report_note(p->o.render.view.is_quiet || !play_motion_is_over(&p->motion, last) ||
                     (p->world.series.count > 0 && !is_changed),
                 "note: %s ends at %.3g s, the frames at %.3g s: from there on nothing moves",

@@ -125,7 +125,7 @@ int relief_path_open(key_path *out, const relief_options *o, const lmb_light *li
                                o->path, (unsigned)track->line);
         }
         if (track->what == KEY_LIGHT && light->kind == LMB_LIGHT_DIRECTIONAL && !out->key[track->first].has_target) {
-            return report_fail(r, "%s:%u: the light is a sun, which has a direction alone; give its keys a target",
+            return report_fail(r, "%s:%u: the light is a sun, which has only a direction; give its keys a target",
                                o->path, (unsigned)track->line);
         }
     }

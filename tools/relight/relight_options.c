@@ -149,14 +149,14 @@ static const option_row file_rows[] = {
      .help = HELP("radiance by mirrored direction, GGX: six cubes of roughness 0, 0.2 .. 1 in the layout of --cube, "
              "numbered as light_%01d.hdr or light-0000.hdr; the first is the world as a cube")},
     {.name = "--side", .value = "N", .kind = OPTION_POWER_OF_2, AT(side), .low = 16, .high = 256,
-     .help = HELP("texels per side of the first; each next one has half, at least 8 (default 128)")},
+     .help = HELP("texels per side of the first; each further cube has half as many, at least 8 (default 128)")},
     {.name = "--harmonics", .value = "OUT.json", .kind = OPTION_TEXT, AT(harmonics), .file = OPTION_WRITES,
      .help = HELP("nine coefficients of radiance, as a LightProbe of three.js, and of irradiance; the file names "
              "the functions")},
     {.name = "--dfg", .value = "OUT", .kind = OPTION_OWN, AT(dfg), .file = OPTION_WRITES, .parse = picture_option,
      .expects = PICTURE_OPTION_WANTS,
-     .help = HELP("a lobe reflects F0 x red + green of white light: 128 x 128, the cosine to the viewer to the "
-             "right, roughness down")},
+     .help = HELP("a table of 128 x 128 pixels: in white light a lobe reflects F0 x red + green. Columns: cosine to "
+             "the viewer; rows: roughness")},
 #endif
     {.kind = OPTION_END},
 };
@@ -192,13 +192,12 @@ static const option_row object_rows[] = {
 #if !defined(OPTIONS_WITHOUT_HELP) /* the web page draws one picture */
     {.name = "--path", .value = "FILE", .kind = OPTION_TEXT, AT(path), .file = OPTION_READS,
      .help = HELP("places of the object, X,Y,Z per line: a picture each, numbered by OUT's %0Nd, as frame_%04d.png, "
-             "or else by -0000, -0001, ... If the world changes, as when clouds move, write the new world's file "
-             "behind the place, relative to FILE: it counts from that picture on, seen from the same centre. `lambent "
-             "capture` makes worlds of a scene")},
+             "or else by -0000, -0001, ... A place may be followed by a new world's file, relative to FILE. That world "
+             "holds from this picture on, with the same centre. `lambent capture` makes worlds of a scene")},
     {.name = "--world-every", .value = "N", .kind = OPTION_INT, AT(world_every), .low = 1, .high = 1000000,
-     .help = HELP("with a numbered --world, as sky_%03d.hdr, and --path: pictures from one file to the next, between "
-             "which the world is blended (default 1: a file a picture). Numbers begin with the lowest that exists; "
-             "the last file stays")},
+     .help = HELP("with --path and a numbered --world, such as sky_%03d.hdr: number of pictures from one file to the "
+             "next; the world is blended in between (default 1: a file a picture). The lowest number that exists is "
+             "picture 0, a missing number ends the series, and the last file stays")},
     {.name = "--reuse", .value = "M", .kind = OPTION_NUMBER, AT(policy.radius_m), .low = 0, .high = 1e5,
      .help = HELP("an object keeps its light until it is M metres from where it was computed (default 0.15; 0: until "
              "it rests)")},
@@ -292,6 +291,9 @@ static int check_together(const relight_options *o, report *r)
     }
     if (o->path != NULL && o->out != NULL && file_is_stdout(o->out)) {
         return report_fail(r, "--path draws a picture a place: give -o a file name");
+    }
+    if (o->lobes != NULL && file_is_stdout(o->lobes)) {
+        return report_fail(r, "--lobes writes six files: give it a file name");
     }
     if (o->path == NULL && o->out != NULL && frame_digits(o->out) > 0) {
         return report_fail(r, "%s: numbers pictures of a --path, and none is given", o->out);

@@ -1,5 +1,5 @@
 /* full.c: lists that use up the memory of a context. The call that finds no room sets GL_OUT_OF_MEMORY; the list then
- * draws what was recorded, and the memory of deleted or replaced lists can be used again. */
+ * draws what was recorded, and the memory of deleted or replaced lists is reused. */
 #define _XOPEN_SOURCE 600
 #include <GL/osmesa.h>
 #include <stdio.h>
