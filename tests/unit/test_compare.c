@@ -214,7 +214,7 @@ static void test_degenerate(pair *p)
     CHECK(compared(p, 0.0).exact == 0 && compared(p, 0.0).max_abs == 0.0);
     fill(p, 1.0f, -1.0f);
     m = measured(p, 0, 0);
-    CHECK(isfinite(m.rmse) && isfinite(m.e50) && m.mean == -1.0);
+    CHECK(m.rmse > 1e29 && m.e50 > 1e29 && m.mean > 1e29 && isfinite(m.rmse)); /* a mean below 0 counts as black */
     fill(p, 0.0f, 0.0f); /* mean (10001 - 1) / 100: the equal pixel at -1 has 0 / 0 */
     set_pixel(p->truth, 0, 10001.0f);
     set_pixel(p->truth, 1, -1.0f);
