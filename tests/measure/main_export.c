@@ -225,15 +225,21 @@ static int irradiance(const char *folder, const image *map)
     return 1;
 }
 
+/* Reads a file that relight wrote, and begins its sums. */
+static int begin(image *out, sums *s, const char *folder, const char *file)
+{
+    char name[1024];
+    memset(s, 0, sizeof *s);
+    snprintf(name, sizeof name, "%s/%s", folder, file);
+    return pfm_file(out, name);
+}
+
 /* The picture against the map of its height, which comes from a cube. */
 static int back(const char *folder, const image *map)
 {
-    char name[1024];
     image got;
     sums s;
-    memset(&s, 0, sizeof s);
-    snprintf(name, sizeof name, "%s/back.pfm", folder);
-    if (!pfm_file(&got, name)) {
+    if (!begin(&got, &s, folder, "back.pfm")) {
         return 0;
     }
     for (size_t i = 0; i < 3 * (size_t)map->width * (size_t)map->height && got.width == map->width; ++i) {
@@ -275,12 +281,9 @@ static void reflect_white(double out[2], double facing, double alpha)
 
 static int table(const char *folder)
 {
-    char name[1024];
     image dfg;
     sums s;
-    memset(&s, 0, sizeof s);
-    snprintf(name, sizeof name, "%s/dfg.pfm", folder);
-    if (!pfm_file(&dfg, name)) {
+    if (!begin(&dfg, &s, folder, "dfg.pfm")) {
         return 0;
     }
     for (int32_t i = 0; i < 100; ++i) { /* from the edges of the table on */
