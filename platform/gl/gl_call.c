@@ -358,12 +358,9 @@ static void call_with_data(int op, gl_word *w, int32_t words, const void *data, 
 
 void glPolygonStipple(const GLubyte *mask)
 {
-    gl_context *c = gl_now;
     uint8_t bits[128];
     gl_word w[2];
-    if (c == NULL) {
-        return;
-    }
+    GL_ENTER_LISTED()
     const gl_store *s = &c->client.unpack;
     const size_t row = (size_t)((s->row > 0 ? s->row : 32) + 7) / 8, align = (size_t)s->align,
                  stride = (row + align - 1) / align * align;
@@ -390,8 +387,7 @@ static void call_pixel_map(GLenum map, GLsizei n, const float *v)
     void glPixelMap##t(GLenum map, GLsizei n, const T *v) \
     { \
         float f[GL_PIXEL_MAP] = {0.0f}; \
-        gl_context *c = gl_now; \
-        if (c == NULL) return; \
+        GL_ENTER_LISTED() \
         GL_FAIL_LISTED(n < 1 || n > GL_PIXEL_MAP, GL_INVALID_VALUE) \
         const int index = map == GL_PIXEL_MAP_I_TO_I || map == GL_PIXEL_MAP_S_TO_S; \
         for (int i = 0; i < n; ++i) f[i] = index ? (float)v[i] : NORM(v[i]); \
@@ -536,9 +532,7 @@ static int call_map_values(GLenum target)
     { \
         float f[GL_MAP_ORDER * 4]; \
         const int n = call_map_values(target); \
-        gl_context *c = gl_now; \
-        if (c == NULL) \
-            return; \
+        GL_ENTER_LISTED() \
         GL_FAIL_LISTED(n == 0 || target >= GL_MAP2_COLOR_4, GL_INVALID_ENUM) \
         GL_FAIL_LISTED(u1 == u2 || stride < n || order < 1 || order > GL_MAP_ORDER, GL_INVALID_VALUE) \
         for (int i = 0; i < order * n; ++i) \
@@ -550,9 +544,7 @@ static int call_map_values(GLenum target)
     { \
         float f[GL_MAP_ORDER * GL_MAP_ORDER * 4]; \
         const int n = call_map_values(target); \
-        gl_context *c = gl_now; \
-        if (c == NULL) \
-            return; \
+        GL_ENTER_LISTED() \
         GL_FAIL_LISTED(n == 0 || target < GL_MAP2_COLOR_4, GL_INVALID_ENUM) \
         GL_FAIL_LISTED(u1 == u2 || v1 == v2 || us < n || vs < n || uo < 1 || uo > GL_MAP_ORDER || vo < 1 || \
                            vo > GL_MAP_ORDER, \

@@ -330,8 +330,32 @@ static void test_streams(void)
     CHECK(draw_vertices(LMB_DRAW_QUADS, &v) == LMB_ERR_ALIGN);
 }
 
+/* Fills the stack below the caller, so that a place that nobody wrote is large. */
+static void fill_stack(void)
+{
+    volatile int32_t words[5000];
+    for (int i = 0; i < 5000; ++i) {
+        words[i] = INT32_MAX;
+    }
+}
+
+/* A corner outside the guard band has no place: sanitizers report a sum with one. */
+static void test_corners_without_place(void)
+{
+    float far[12][3];
+    for (int i = 0; i < 12; ++i) {
+        memcpy(far[i], square[i % 3], sizeof far[i]);
+        far[i][1] = i % 3 == 0 ? -1e5f : far[i][1];
+    }
+    const lmb_draw_vertices v = {.positions = far[0], .count = 12};
+    case_begin();
+    fill_stack();
+    CHECK(draw_vertices(LMB_DRAW_TRIANGLES, &v) == LMB_OK && shown() > 100);
+}
+
 void test_draw_modes(void)
 {
+    test_corners_without_place();
     test_outlines();
     test_edges_chosen();
     test_sides();

@@ -124,6 +124,13 @@ static void errors(void)
     glEnable(GL_FOG);
     glEnd();
     expect(GL_INVALID_OPERATION, "glEnable inside");
+    glBegin(GL_LINES);
+    glPolygonStipple(NULL);
+    glPixelMapfv(GL_PIXEL_MAP_R_TO_R, 2, NULL);
+    glMap1f(GL_MAP1_VERTEX_3, 0, 1, 3, 2, NULL);
+    glMap2f(GL_MAP2_VERTEX_3, 0, 1, 3, 2, 0, 1, 6, 2, NULL);
+    glEnd();
+    expect(GL_INVALID_OPERATION, "glPolygonStipple inside reads no byte");
     glEnd();
     expect(GL_INVALID_OPERATION, "glEnd outside");
     glViewport(0, 0, -1, 1);
