@@ -917,7 +917,7 @@ cross-all: $(CROSS_TARGETS:%=cross-%) $(MORE_CROSS_TARGETS:%=cross-%) ## the sam
 $(CROSS_TARGETS:%=cross-%): check-tools
 $(MORE_CROSS_TARGETS:%=cross-%): more-tools
 $(CROSS_TARGETS:%=cross-%) $(MORE_CROSS_TARGETS:%=cross-%): NEEDS = $(needs_$(@:cross-%=%))
-$(CROSS_TARGETS:%=cross-%) $(MORE_CROSS_TARGETS:%=cross-%): cross-%:
+$(sort $(CROSS_TARGETS:%=cross-%) $(MORE_CROSS_TARGETS:%=cross-%)): cross-%:
 	+@$(RUN_PART) cross-$* $(MAKE) $(or $(goal_$*),golden) BUILD=$(call cross_build,$*) $(how_$*)
 
 # One installer at a time, with all packages that cross-all needs.
