@@ -124,21 +124,31 @@ typedef struct draw_share {
     lane b1, b2;
 } draw_share;
 
-LANE_INLINE draw_share draw_share_at(const lmb_draw_patch *p, int k)
+/* Divides by q. */
+LANE_INLINE void draw_even_out(draw_share *s, lane q)
+{
+    const lane inverse = lane_keep(lane_lt(lane_splat(1e-30f), q), lane_div(lane_splat(1.0f), q));
+    s->b1 = lane_mul(s->b1, inverse);
+    s->b2 = lane_mul(s->b2, inverse);
+}
+
+LANE_INLINE draw_share draw_hold_share(draw_share s)
 {
     const lane zero = lane_splat(0.0f), one = lane_splat(1.0f);
+    s.b1 = lane_hold(s.b1, zero, one);
+    s.b2 = lane_hold(s.b2, zero, one);
+    return s;
+}
+
+LANE_INLINE draw_share draw_share_at(const lmb_draw_patch *p, int k)
+{
     draw_share s;
     s.b1 = draw_slope_at(&p->n1, k);
     s.b2 = draw_slope_at(&p->n2, k);
     if (!p->is_even) {
-        const lane q = draw_slope_at(&p->q, k);
-        const lane inverse = lane_keep(lane_lt(lane_splat(1e-30f), q), lane_div(one, q));
-        s.b1 = lane_mul(s.b1, inverse);
-        s.b2 = lane_mul(s.b2, inverse);
+        draw_even_out(&s, draw_slope_at(&p->q, k));
     }
-    s.b1 = lane_hold(s.b1, zero, one);
-    s.b2 = lane_hold(s.b2, zero, one);
-    return s;
+    return draw_hold_share(s);
 }
 
 LANE_INLINE lane draw_value_at(const lmb_draw_patch *p, int i, const draw_share *s)
@@ -167,19 +177,39 @@ LANE_INLINE lanei draw_texel_at(const lmb_texture *t, lanei x, lanei y)
     return lanei_gather_rgba(t->texels, lanei_add(row, texture_wrap(x, lanei_splat(t->width), t->wrap_s)));
 }
 
-/* At x, y in 1/256 texels. */
-LANE_PART lanei draw_between_texels(const lmb_texture *t, lanei x, lanei y)
+/* The four texels around x, y in 1/256 texels. */
+LANE_INLINE void draw_find_corners(lanei out[4], const lmb_texture *t, lanei x, lanei y)
 {
-    const lanei byte = lanei_splat(255), one = lanei_splat(1);
-    const lanei x0 = lanei_shift(x, 8), y0 = lanei_shift(y, 8);
+    const lanei one = lanei_splat(1), x0 = lanei_shift(x, 8), y0 = lanei_shift(y, 8);
     const lanei left = draw_wrap(x0, t->width, t->wrap_s), right = draw_wrap(lanei_add(x0, one), t->width, t->wrap_s);
     const lanei upper = draw_texel_row(t, y0), lower = draw_texel_row(t, lanei_add(y0, one));
+    out[0] = lanei_gather_rgba(t->texels, lanei_add(upper, left));
+    out[1] = lanei_gather_rgba(t->texels, lanei_add(upper, right));
+    out[2] = lanei_gather_rgba(t->texels, lanei_add(lower, left));
+    out[3] = lanei_gather_rgba(t->texels, lanei_add(lower, right));
+}
+
+/* Between the texels of pixels `bits`; of others, any. */
+LANE_PART lanei draw_between_texels(const lmb_texture *t, lanei x, lanei y, uint32_t bits)
+{
     lanei corner[4];
-    corner[0] = lanei_gather_rgba(t->texels, lanei_add(upper, left));
-    corner[1] = lanei_gather_rgba(t->texels, lanei_add(upper, right));
-    corner[2] = lanei_gather_rgba(t->texels, lanei_add(lower, left));
-    corner[3] = lanei_gather_rgba(t->texels, lanei_add(lower, right));
-    return codes_between(corner, lanei_and(x, byte), lanei_and(y, byte));
+#ifdef LANE_GATHERS_PAIRS
+    const lanei x0 = lanei_shift(x, 8), y0 = lanei_shift(y, 8);
+    const lane_mask inside = mask_and(lanei_within(x0, t->width - 1), lanei_within(y0, t->height - 1));
+    lanei pair[4];
+    if ((mask_bits(inside) & bits) == bits) { /* no side of the texture lies between the texels */
+        const lanei at = lanei_add(lanei_mul(y0, lanei_splat(t->width)), x0);
+        lanei_gather_pairs(pair, t->texels, 4 * (ptrdiff_t)t->width, lanei_pick(inside, at, lanei_splat(0)));
+    } else {
+        draw_find_corners(corner, t, x, y);
+        lanei_pair_corners(pair, corner);
+    }
+    return codes_between_pairs(pair, x, y);
+#else
+    (void)bits;
+    draw_find_corners(corner, t, x, y);
+    return codes_between(corner, x, y);
+#endif
 }
 
 LANE_INLINE draw_codes draw_bilinear(const lmb_texture *t, lane u, lane v)
@@ -187,7 +217,7 @@ LANE_INLINE draw_codes draw_bilinear(const lmb_texture *t, lane u, lane v)
     const lanei half = lanei_splat(128);
     const lanei x = lanei_sub(lane_to_int(lane_mul(u, lane_splat((float)(t->width * 256)))), half);
     const lanei y = lanei_sub(lane_to_int(lane_mul(v, lane_splat((float)(t->height * 256)))), half);
-    return draw_split(draw_between_texels(t, x, y));
+    return draw_split(draw_between_texels(t, x, y, ALL_LANES));
 }
 
 LANE_PART draw_codes draw_sample(const lmb_texture *t, lane u, lane v)
@@ -409,34 +439,32 @@ static int draw_is_usual(const lmb_draw_state *s, int meets)
 
 /* Texture coordinate i over a patch. Copies of the patch's values, because stores of vectors may alias it. */
 typedef struct draw_axis {
-    lane at, more1, more2, size;
+    float at, more1, more2, size;
     int32_t texels, wrap;
-    int up;   /* 1: never negative, and far from the limits */
-    int rows; /* 1: differs between the rows of a tile */
+    int up; /* 1: never negative, and far from the limits */
 } draw_axis;
 
 LANE_INLINE draw_axis draw_axis_of(const lmb_draw_patch *p, int i, int32_t texels, int32_t wrap, int32_t steps)
 {
-    const float at = p->at[i], more1 = p->more1[i], more2 = p->more2[i];
     draw_axis a;
-    a.at = lane_splat(at);
-    a.more1 = lane_splat(more1);
-    a.more2 = lane_splat(more2);
-    a.size = lane_splat((float)(texels * steps));
+    a.at = p->at[i];
+    a.more1 = p->more1[i];
+    a.more2 = p->more2[i];
+    a.size = (float)(texels * steps);
     a.texels = texels;
     a.wrap = wrap;
-    a.up = wrap == LMB_WRAP_REPEAT && at >= 0.0f && more1 >= 0.0f && more2 >= 0.0f && at + more1 + more2 < 1e6f;
-    a.rows =
-        LANES < LMB_TILE || !p->is_even || (more1 != 0.0f && p->n1.y != 0.0f) || (more2 != 0.0f && p->n2.y != 0.0f);
+    a.up = wrap == LMB_WRAP_REPEAT && a.at >= 0.0f && a.more1 >= 0.0f && a.more2 >= 0.0f &&
+           a.at + a.more1 + a.more2 < 1e6f;
     return a;
 }
 
 /* The coordinate within a period, in steps of a texel. If it is not negative, it needs no floor. */
 LANE_INLINE lanei draw_place(const draw_axis *a, const draw_share *s)
 {
-    const lane u = lane_add(a->at, lane_add(lane_mul(s->b1, a->more1), lane_mul(s->b2, a->more2)));
-    const lane part = a->up ? lane_sub(u, lane_trunc(u)) : texture_reduce(u, a->wrap);
-    return lane_to_int(lane_mul(part, a->size));
+    const lane more = lane_add(lane_mul(s->b1, lane_splat(a->more1)), lane_mul(s->b2, lane_splat(a->more2))),
+               u = lane_add(lane_splat(a->at), more);
+    const lane part = a->up ? lane_part(u) : texture_reduce(u, a->wrap);
+    return lane_to_int(lane_mul(part, lane_splat(a->size)));
 }
 
 /* The same as the index of a texel. What is left of `up` coordinates is below 1. */
@@ -446,171 +474,101 @@ LANE_INLINE lanei draw_nearest(const draw_axis *a, const draw_share *s)
     return a->up ? i : draw_wrap(i, a->texels, a->wrap);
 }
 
-/* What the pixels of a tile need before they are blended. */
-typedef struct draw_pixels {
-    int32_t x[LMB_TILE_PIXELS], y[LMB_TILE_PIXELS]; /* bilinear: 1/256 texels; nearest: x is the texel's index */
-    int32_t colour[LMB_TILE_PIXELS];
-} draw_pixels;
+/* What the pixels of a shape share. */
+typedef struct draw_brush {
+    const lmb_texture *texture;
+    lanei same; /* the colour, if it does not vary */
+    int32_t meets, varies, is_smooth, is_white;
+} draw_brush;
 
-/* Stores v. Pixels that are not in `bits` keep theirs if an earlier half has `others`. */
-LANE_INLINE void draw_keep(int32_t *at, lanei v, uint32_t bits, uint32_t others)
-{
-    lanei_store(at, others != 0 ? lanei_pick(mask_of_bits(bits), v, lanei_load(at)) : v);
-}
-
-/* draw_share_at of a patch with even shares, from copies of its slopes. */
-typedef struct draw_even {
-    lane at1, at2, x1, x2, y1, y2;
-} draw_even;
-
-LANE_INLINE draw_even draw_even_of(const lmb_draw_patch *p)
-{
-    draw_even e;
-    e.at1 = lane_splat(p->n1.at);
-    e.at2 = lane_splat(p->n2.at);
-    e.x1 = lane_splat(p->n1.x);
-    e.x2 = lane_splat(p->n2.x);
-    e.y1 = lane_splat(p->n1.y);
-    e.y2 = lane_splat(p->n2.y);
-    return e;
-}
-
-LANE_INLINE draw_share draw_even_at(const draw_even *e, int k)
-{
-    const lane zero = lane_splat(0.0f), one = lane_splat(1.0f), row = lane_row(k), column = lane_column(k);
-    draw_share s;
-    s.b1 = lane_add(lane_add(e->at1, lane_mul(e->y1, row)), lane_mul(e->x1, column));
-    s.b2 = lane_add(lane_add(e->at2, lane_mul(e->y2, row)), lane_mul(e->x2, column));
-    s.b1 = lane_hold(s.b1, zero, one);
-    s.b2 = lane_hold(s.b2, zero, one);
-    return s;
-}
-
-LANE_INLINE void draw_find_places(draw_pixels *out, const lmb_draw_patch *p, uint64_t mask, uint64_t others,
-                                  int is_smooth, int is_even)
-{
-    const lmb_texture *t = p->state->stage[0].texture;
-    const draw_axis u = draw_axis_of(p, 4, t->width, t->wrap_s, is_smooth ? 256 : 1),
-                    v = draw_axis_of(p, 5, t->height, t->wrap_t, is_smooth ? 256 : 1);
-    const lanei width = lanei_splat(t->width), half = lanei_splat(128);
-    const draw_even even = draw_even_of(p);
-    lanei x = half;
-    int is_known = 0;
-    for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
-        const uint32_t bits = draw_bits(mask, k), before = draw_bits(others, k);
-        if (bits == 0) {
-            continue;
-        }
-        const draw_share share = is_even ? draw_even_at(&even, k) : draw_share_at(p, k);
-        if (!is_known) {
-            x = is_smooth ? lanei_sub(draw_place(&u, &share), half) : draw_nearest(&u, &share);
-            is_known = !u.rows;
-        }
-        if (is_smooth) {
-            draw_keep(out->x + k, x, bits, before);
-            draw_keep(out->y + k, lanei_sub(draw_place(&v, &share), half), bits, before);
-        } else {
-            draw_keep(out->x + k, lanei_add(lanei_mul(draw_nearest(&v, &share), width), x), bits, before);
-        }
-    }
-}
-
-LANE_NOINLINE void KERNEL(draw_find)(draw_pixels *out, const lmb_draw_patch *p, uint64_t mask, uint64_t others)
-{
-    const int is_smooth = p->state->stage[0].texture->filter != LMB_NEAREST;
-    if (is_smooth && p->is_even) {
-        draw_find_places(out, p, mask, others, 1, 1);
-    } else if (is_smooth) {
-        draw_find_places(out, p, mask, others, 1, 0);
-    } else if (p->is_even) {
-        draw_find_places(out, p, mask, others, 0, 1);
-    } else {
-        draw_find_places(out, p, mask, others, 0, 0);
-    }
-}
-
-LANE_NOINLINE void KERNEL(draw_find_colours)(draw_pixels *out, const lmb_draw_patch *p, uint64_t mask, uint64_t others)
-{
-    for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
-        const uint32_t bits = draw_bits(mask, k);
-        draw_codes v;
-        if (bits == 0) {
-            continue;
-        }
-        const draw_share share = draw_share_at(p, k);
-        for (int i = 0; i < 4; ++i) {
-            v.c[i] = draw_code(draw_value_at(p, i, &share));
-        }
-        draw_keep(out->colour + k, draw_join(&v), bits, draw_bits(others, k));
-    }
-}
-
-/* The texel, times the colour unless that is white. */
-LANE_INLINE lanei draw_texel_times(const lmb_texture *t, const draw_pixels *from, int k, lanei colour, int is_white)
-{
-    lanei c = colour;
-    if (t != NULL && t->filter == LMB_NEAREST) {
-        c = lanei_gather_rgba(t->texels, lanei_load(from->x + k));
-    } else if (t != NULL) {
-        c = draw_between_texels(t, lanei_load(from->x + k), lanei_load(from->y + k));
-    }
-    return is_white ? c : codes_times(c, colour);
-}
-
-LANE_INLINE void draw_put_pixels(const lmb_draw_patch *p, const draw_pixels *from, uint64_t mask, lanei same,
-                                 int is_white, int meets)
-{
-    const lmb_texture *t = p->state->stage[0].texture;
-    for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
-        const uint32_t bits = draw_bits(mask, k);
-        uint8_t *at = p->colour + (ptrdiff_t)(k >> 3) * p->colour_stride + 4 * (k & 7);
-        if (bits == 0) {
-            continue;
-        }
-        lanei v = draw_texel_times(t, from, k, p->varies ? lanei_load(from->colour + k) : same, is_white || t == NULL);
-        v = p->swaps ? draw_swap(v) : v;
-        if (meets != DRAW_MEET_NOT || bits != (1u << LANES) - 1u) {
-            const lanei was = draw_load(at, p->colour_stride);
-            v = meets == DRAW_MEET_OVER ? codes_over(v, was) : meets == DRAW_MEET_ADD ? codes_plus(v, was) : v;
-            v = lanei_pick(mask_of_bits(bits), v, was);
-        }
-        draw_save(at, p->colour_stride, v);
-    }
-}
-
-/* Colours the pixels of the masks, of one tile, in the usual states. halves: 1 or 2; both have one colour, or vary. */
-LANE_NOINLINE void KERNEL(draw_usual)(const lmb_draw_patch *p, const uint64_t *mask, int halves, int meets)
+LANE_INLINE draw_brush draw_brush_of(const lmb_draw_patch *p, int meets)
 {
     const lmb_draw_stage *stage = &p->state->stage[0];
     const int replaces = stage->texture != NULL && stage->mode == LMB_DRAW_REPLACE;
-    const uint64_t all = mask[0] | (halves > 1 ? mask[1] : 0);
-    int is_white = replaces || !p->varies;
-    draw_pixels pixels;
+    draw_brush b;
     uint32_t codes = 0; /* of corner 0; vectors of each channel would take a quarter of the stack */
+    b.texture = stage->texture;
+    b.meets = meets;
+    b.varies = p->varies && !replaces;
+    b.is_smooth = b.texture != NULL && b.texture->filter != LMB_NEAREST;
+    b.is_white = replaces || !p->varies;
     for (int i = 0; i < 4; ++i) {
         const float code = p->at[i] > 0.0f ? p->at[i] : 0.0f;
         codes |= (uint32_t)(int32_t)((code < 255.0f ? code : 255.0f) + 0.5f) << 8 * i;
-        is_white &= replaces || p->at[i] == 255.0f;
+        b.is_white &= replaces || p->at[i] == 255.0f;
     }
-    const lanei colour = lanei_splat((int32_t)codes);
-    for (int i = 0; i < halves; ++i) {
-        if (stage->texture != NULL && mask[i] != 0) {
-            KERNEL(draw_find)(&pixels, p + i, mask[i], i == 0 ? 0 : mask[0]);
+    b.same = lanei_splat((int32_t)codes);
+    return b;
+}
+
+/* Texture coordinates u and v of the first stage over a patch; unused without a texture. */
+typedef struct draw_axes {
+    draw_axis u, v;
+} draw_axes;
+
+LANE_INLINE draw_axes draw_axes_of(const draw_brush *b, const lmb_draw_patch *p)
+{
+    const lmb_texture *t = b->texture;
+    const int32_t steps = b->is_smooth ? 256 : 1, first = t != NULL ? 4 : 0; /* the patch has no others then */
+    draw_axes a;
+    a.u = draw_axis_of(p, first, t != NULL ? t->width : 1, t != NULL ? t->wrap_s : LMB_WRAP_REPEAT, steps);
+    a.v = draw_axis_of(p, first + 1, t != NULL ? t->height : 1, t != NULL ? t->wrap_t : LMB_WRAP_REPEAT, steps);
+    return a;
+}
+
+/* What pixels need before they are blended. Bilinear: x and y in 1/256 texels; nearest: x is the texel's index. */
+typedef struct draw_found {
+    lanei x, y, colour; /* unused ones hold the shape's colour */
+} draw_found;
+
+LANE_INLINE draw_found draw_find(const draw_brush *b, const draw_axes *a, const lmb_draw_patch *p, const draw_share *s)
+{
+    draw_found f;
+    f.colour = f.x = f.y = b->same;
+    if (b->varies) {
+        draw_codes v;
+        for (int i = 0; i < 4; ++i) {
+            v.c[i] = draw_code(draw_value_at(p, i, s));
         }
-        if (p->varies && !replaces && mask[i] != 0) {
-            KERNEL(draw_find_colours)(&pixels, p + i, mask[i], i == 0 ? 0 : mask[0]);
-        }
+        f.colour = draw_join(&v);
     }
-    switch (meets) {
-    case DRAW_MEET_OVER:
-        draw_put_pixels(p, &pixels, all, colour, is_white, DRAW_MEET_OVER);
-        break;
-    case DRAW_MEET_ADD:
-        draw_put_pixels(p, &pixels, all, colour, is_white, DRAW_MEET_ADD);
-        break;
-    default:
-        draw_put_pixels(p, &pixels, all, colour, is_white, DRAW_MEET_NOT);
-        break;
+    if (b->is_smooth) {
+        f.x = lanei_sub(draw_place(&a->u, s), lanei_splat(128));
+        f.y = lanei_sub(draw_place(&a->v, s), lanei_splat(128));
+    } else if (b->texture != NULL) {
+        f.x = lanei_add(lanei_mul(draw_nearest(&a->v, s), lanei_splat(b->texture->width)), draw_nearest(&a->u, s));
+    }
+    return f;
+}
+
+/* Blends the pixels onto `was`. */
+LANE_INLINE lanei draw_made(const draw_brush *b, const draw_found *f, uint32_t bits, int swaps, lanei was)
+{
+    lanei v = f->colour;
+    if (b->texture != NULL) {
+        const lanei c = b->is_smooth ? draw_between_texels(b->texture, f->x, f->y, bits)
+                                     : lanei_gather_rgba(b->texture->texels, f->x);
+        v = b->is_white ? c : codes_times(c, v);
+    }
+    v = swaps ? draw_swap(v) : v;
+    return b->meets == DRAW_MEET_OVER ? codes_over(v, was) : b->meets == DRAW_MEET_ADD ? codes_plus(v, was) : v;
+}
+
+/* Colours pixels of a tile in the usual states. */
+LANE_NOINLINE void KERNEL(draw_usual)(const lmb_draw_patch *p, uint64_t mask, int meets)
+{
+    const draw_brush b = draw_brush_of(p, meets);
+    const draw_axes axes = draw_axes_of(&b, p);
+    for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
+        const uint32_t bits = draw_bits(mask, k);
+        uint8_t *at = p->colour + (ptrdiff_t)(k >> 3) * p->colour_stride + 4 * (k & 7);
+        if (bits != 0) {
+            const draw_share share = draw_share_at(p, k);
+            const draw_found f = draw_find(&b, &axes, p, &share);
+            const lanei was = draw_load(at, p->colour_stride);
+            const lanei made = draw_made(&b, &f, bits, p->swaps, was);
+            draw_save(at, p->colour_stride, lanei_pick(mask_of_bits(bits), made, was));
+        }
     }
 }
 
@@ -663,8 +621,7 @@ static void KERNEL(draw_paint)(const lmb_draw_patch *p, uint64_t mask)
     const int meets = draw_meets(p->state);
     const int is_plain = p->state->stage[0].texture == NULL && meets == DRAW_MEET_NOT; /* one pass is faster */
     if (!is_plain && draw_is_usual(p->state, meets)) {
-        const uint64_t masks[2] = {mask, 0};
-        KERNEL(draw_usual)(p, masks, 1, meets);
+        KERNEL(draw_usual)(p, mask, meets);
         return;
     }
 #endif
@@ -684,56 +641,179 @@ static void KERNEL(draw_shares)(float out[2][LMB_TILE_PIXELS], const lmb_draw_pa
     }
 }
 
-/* The value of a plane at a tile, as in draw_tile.c. */
-LANE_INLINE void draw_slope_set(lmb_draw_slope *out, const lmb_draw_plane *p, double x, double y)
+/* Loads and stores the pixels `bits`, of which the others of a row follow. */
+LANE_INLINE lanei sheet_load(const uint8_t *p, int32_t stride, uint32_t bits)
 {
-    out->at = (float)(p->origin + p->x * x + p->y * y);
+#if LANES > LMB_TILE
+    return lanei_load_rows_some(p, stride, mask_of_bits(bits));
+#else
+    (void)stride;
+    return bits == ALL_LANES ? draw_load_row(p) : lanei_load_some(p, highest_bit(bits) + 1);
+#endif
 }
 
-LANE_INLINE void KERNEL(draw_sheet_tile)(lmb_draw_sheet *s, const uint64_t mask[2], int32_t x, int32_t y, int meets)
+LANE_INLINE void sheet_save(uint8_t *p, int32_t stride, uint32_t bits, lanei v)
 {
-    for (int i = 0; i < 2; ++i) {
-        lmb_draw_patch *p = &s->half[i];
-        p->colour = s->colour + (ptrdiff_t)y * p->colour_stride + 4 * x;
-        draw_slope_set(&p->n1, s->plane[i][0], s->x + x, s->y + y);
-        draw_slope_set(&p->n2, s->plane[i][1], s->x + x, s->y + y);
-        if (!p->is_even) {
-            draw_slope_set(&p->q, s->plane[i][2], s->x + x, s->y + y);
+#if LANES > LMB_TILE
+    lanei_store_rows_some(p, stride, mask_of_bits(bits), v);
+#else
+    (void)stride;
+    if (bits == ALL_LANES) {
+        draw_save_row(p, v);
+    } else {
+        lanei_store_some(p, highest_bit(bits) + 1, v);
+    }
+#endif
+}
+
+/* Vectors of a sheet are parts of rows from the sheet's left side on, of one row or of two rows of a tile. */
+enum {
+    SHEET_WIDE = LANES < LMB_TILE ? LANES : LMB_TILE,
+    SHEET_HIGH = LANES / SHEET_WIDE,
+    SHEET_PARTS = LMB_TILE / SHEET_HIGH /* in the height of a tile */
+};
+
+/* The shares over a column of parts: in the first row of the tiles, and their changes across. */
+typedef struct sheet_shares {
+    lane at1, at2, at_q, x1, x2, x_q;
+} sheet_shares;
+
+/* The values of a plane at the first pixels of the tiles that pixels x, ... of the row y of tiles lie in. */
+LANE_INLINE lane sheet_slope(const lmb_draw_sheet *s, const lmb_draw_plane *p, int32_t x, int32_t y)
+{
+    const int32_t from = x & ~7, next = from + LMB_TILE;
+    const lane v = lane_splat((float)(p->origin + p->x * (s->x + from) + p->y * (s->y + y)));
+    if (x + SHEET_WIDE <= next) {
+        return v;
+    }
+    const uint32_t row = (1u << (next - x)) - 1u;
+    return lane_pick(mask_of_bits(SHEET_HIGH > 1 ? row * 0x101u : row), v,
+                     lane_splat((float)(p->origin + p->x * (s->x + next) + p->y * (s->y + y))));
+}
+
+LANE_INLINE void sheet_set_shares(sheet_shares *out, const lmb_draw_sheet *s, int i, int32_t x, int32_t y)
+{
+    static const float columns[24] = {0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7};
+    const lmb_draw_patch *p = &s->half[i];
+    const lane column = lane_load(columns + (x & 7));
+    out->at1 = sheet_slope(s, s->plane[i][0], x, y);
+    out->at2 = sheet_slope(s, s->plane[i][1], x, y);
+    out->x1 = lane_mul(lane_splat(p->n1.x), column);
+    out->x2 = lane_mul(lane_splat(p->n2.x), column);
+    if (!p->is_even) {
+        out->at_q = sheet_slope(s, s->plane[i][2], x, y);
+        out->x_q = lane_mul(lane_splat(p->q.x), column);
+    }
+}
+
+/* draw_share_at for a row of the tile. */
+LANE_INLINE draw_share sheet_share(const sheet_shares *t, const lmb_draw_patch *p, int32_t row)
+{
+    const lane down = lane_row(LMB_TILE * row);
+    draw_share s;
+    s.b1 = lane_add(lane_add(t->at1, lane_mul(lane_splat(p->n1.y), down)), t->x1);
+    s.b2 = lane_add(lane_add(t->at2, lane_mul(lane_splat(p->n2.y), down)), t->x2);
+    if (!p->is_even) {
+        draw_even_out(&s, lane_add(lane_add(t->at_q, lane_mul(lane_splat(p->q.y), down)), t->x_q));
+    }
+    return draw_hold_share(s);
+}
+
+/* What the parts of a column need. Processors overlap more of two loops of short steps than of one of long steps. */
+typedef struct sheet_parts {
+    int32_t x[SHEET_PARTS][LANES], y[SHEET_PARTS][LANES], colour[SHEET_PARTS][LANES];
+    uint32_t drawn[SHEET_PARTS], first[SHEET_PARTS]; /* bits of pixels inside the sheet, and of those of half 0 */
+    int from, past;                                  /* the parts that have pixels inside */
+} sheet_parts;
+
+/* Sets the bits of parts at x, ..., of which n pixels are in the sheet. Returns bits of the halves that have some. */
+LANE_INLINE int sheet_set_parts(sheet_parts *out, const lmb_draw_sheet *s, int32_t x, int32_t n, int32_t y)
+{
+    const int32_t ex = s->edge_x, ey = s->edge_y;
+    const int64_t low = (SHEET_WIDE - 1) * (int64_t)(ex < 0 ? ex : 0) + (SHEET_HIGH - 1) * (int64_t)(ey < 0 ? ey : 0),
+                  high = (SHEET_WIDE - 1) * (int64_t)(ex > 0 ? ex : 0) + (SHEET_HIGH - 1) * (int64_t)(ey > 0 ? ey : 0);
+    const uint32_t row = (1u << n) - 1u, all = SHEET_HIGH > 1 ? row * 0x101u : row;
+    const int32_t y0 = s->y0 - y, y1 = s->y1 - y; /* rows */
+    uint32_t firsts = 0, others = 0;
+    out->from = y0 > 0 ? y0 / SHEET_HIGH : 0;
+    out->past = y1 < LMB_TILE ? y1 / SHEET_HIGH + 1 : SHEET_PARTS;
+    for (int k = out->from; k < out->past; ++k) {
+        const int64_t e = s->edge + (int64_t)ex * x + (int64_t)ey * (y + SHEET_HIGH * k);
+        uint32_t first = e + low >= 0 ? all : 0;
+        if (e + low < 0 && e + high >= 0) { /* near 0 */
+            first = all & mask_bits(lanei_not_negative(lanei_affine((int32_t)e, ex, ey, 0)));
+        }
+        out->drawn[k] = all;
+        out->first[k] = first;
+        firsts |= first;
+        others |= all & ~first;
+    }
+    if (SHEET_HIGH > 1 && (y0 & 1) != 0 && y0 > 0) {
+        out->drawn[out->from] = row << SHEET_WIDE % 32;
+    }
+    if (SHEET_HIGH > 1 && (y1 & 1) == 0 && y1 < LMB_TILE) {
+        out->drawn[out->past - 1] &= row;
+    }
+    return (firsts != 0) | (others != 0) << 1;
+}
+
+/* Stores v, except where `kept` has earlier values. */
+LANE_INLINE void sheet_keep(int32_t *at, lanei v, int mixed, uint32_t kept)
+{
+    lanei_store(at, mixed ? lanei_pick(mask_of_bits(kept), lanei_load(at), v) : v);
+}
+
+/* Finds what the pixels of half i need. mixed: 1: keeps what half 0 found. All parts are found, because processors
+ * mispredict which ones have pixels of the half. */
+LANE_INLINE void sheet_find(sheet_parts *out, const lmb_draw_sheet *s, const draw_brush *b, const draw_axes *axes,
+                            int i, int mixed, int32_t x, int32_t y)
+{
+    sheet_shares shares;
+    sheet_set_shares(&shares, s, i, x, y);
+    for (int k = out->from; k < out->past; ++k) {
+        const draw_share share = sheet_share(&shares, &s->half[i], SHEET_HIGH * k);
+        const draw_found f = draw_find(b, axes, &s->half[i], &share);
+        sheet_keep(out->x[k], f.x, mixed, out->first[k]);
+        if (b->is_smooth) {
+            sheet_keep(out->y[k], f.y, mixed, out->first[k]);
+        }
+        if (b->varies) {
+            sheet_keep(out->colour[k], f.colour, mixed, out->first[k]);
         }
     }
-    if (mask[0] != 0) {
-        KERNEL(draw_usual)(s->half, mask, mask[1] != 0 ? 2 : 1, meets);
-    } else {
-        KERNEL(draw_usual)(s->half + 1, mask + 1, 1, meets);
+}
+
+/* Draws the column of parts at x, ... in the row y of tiles. */
+LANE_NOINLINE void KERNEL(sheet_draw)(const lmb_draw_sheet *s, const draw_brush *b, const draw_axes axes[2], int32_t x,
+                                      int32_t n, int32_t y)
+{
+    const int32_t stride = s->half[0].colour_stride, swaps = s->half[0].swaps;
+    sheet_parts parts;
+    const int has = sheet_set_parts(&parts, s, x, n, y);
+    if ((has & 1) != 0) {
+        sheet_find(&parts, s, b, &axes[0], 0, 0, x, y);
+    }
+    if ((has & 2) != 0) {
+        sheet_find(&parts, s, b, &axes[1], 1, has == 3, x, y);
+    }
+    uint8_t *at = s->colour + (ptrdiff_t)(y + SHEET_HIGH * parts.from) * stride + 4 * (ptrdiff_t)x;
+    for (int k = parts.from; k < parts.past; ++k, at += SHEET_HIGH * (ptrdiff_t)stride) {
+        const uint32_t drawn = parts.drawn[k];
+        const draw_found f = {lanei_load(parts.x[k]), b->is_smooth ? lanei_load(parts.y[k]) : b->same,
+                              b->varies ? lanei_load(parts.colour[k]) : b->same};
+        sheet_save(at, stride, drawn, draw_made(b, &f, drawn, swaps, sheet_load(at, stride, drawn)));
     }
 }
 
 static void KERNEL(draw_sheet)(lmb_draw_sheet *s)
 {
-    const int meets = draw_meets(s->half[0].state);
-    const int varies = s->half[0].varies | s->half[1].varies;
-    const int64_t ex = s->edge_x, ey = s->edge_y;
-    const int64_t low = 7 * ((ex < 0 ? ex : 0) + (ey < 0 ? ey : 0)), high = 7 * ((ex > 0 ? ex : 0) + (ey > 0 ? ey : 0));
-    s->half[0].varies = s->half[1].varies = varies;
+    s->half[0].varies |= s->half[1].varies;
+    const draw_brush b = draw_brush_of(&s->half[0], draw_meets(s->half[0].state));
+    const draw_axes axes[2] = {draw_axes_of(&b, &s->half[0]), draw_axes_of(&b, &s->half[1])};
     for (int32_t y = 0; y <= s->y1; y += LMB_TILE) {
-        uint64_t rows = ~(uint64_t)0;
-        rows = y < s->y0 ? rows << LMB_TILE * (s->y0 - y) : rows;
-        rows = y + 7 > s->y1 ? rows & ~(uint64_t)0 >> LMB_TILE * (y + 7 - s->y1) : rows;
-        for (int32_t x = 0; x <= s->x1; x += LMB_TILE) {
-            const uint32_t left = x < s->x0 ? 0xffu << (s->x0 - x) : 0xffu,
-                           right = x + 7 > s->x1 ? 0xffu >> (x + 7 - s->x1) : 0xffu;
-            const uint64_t inside = rows & (left & right & 0xffu) * UINT64_C(0x0101010101010101);
-            const int64_t e = s->edge + ex * x + ey * y;
-            uint64_t mask[2] = {e + low >= 0 ? ~(uint64_t)0 : 0, 0};
-            if (e + low < 0 && e + high >= 0) {
-                const int32_t edges[3] = {(int32_t)e, 0, 0}, by_x[3] = {s->edge_x, 0, 0}, by_y[3] = {s->edge_y, 0, 0};
-                mask[0] = KERNEL(draw_cover)(edges, by_x, by_y);
-            }
-            mask[1] = inside & ~mask[0];
-            mask[0] &= inside;
-            if ((mask[0] | mask[1]) != 0) {
-                KERNEL(draw_sheet_tile)(s, mask, x, y, meets);
-            }
+        for (int32_t x = s->x0; x <= s->x1; x += SHEET_WIDE) {
+            const int32_t n = s->x1 - x + 1;
+            KERNEL(sheet_draw)(s, &b, axes, x, n < SHEET_WIDE ? n : SHEET_WIDE, y);
         }
     }
 }

@@ -1,7 +1,8 @@
 /* codes_wide.inl: the verbs of 8-bit codes by AVX2 and AVX-512. Layer 2.
  *
  * Included by lane_avx2.h and lane_avx512.h, which define WIDE(add_epi16), the instruction of their width;
- * WIDE_BITS(xor), the same for whole registers; WIDE_FOURS, 128 bits in all places; and WIDE_SHUFFLE. */
+ * WIDE_BITS(xor), the same for whole registers; WIDE_FOURS, 128 bits in all places; and WIDE_LESS_IF(v, by, a, b), v
+ * less `by` in the 16-bit places where a < b. */
 
 /* Sixteen-bit products of codes, in the low and the high halves of 128 bits. (t + 128) 257 / 2^16 is t / 255 to
  * nearest, for t = 0 .. 255 x 255. */
@@ -62,36 +63,45 @@ static inline lanei codes_same(lanei x, lanei y)
                 t = WIDE(add_epi16)(WIDE(mullo_epi16)(WIDE(unpackhi_epi8)(y, zero), WIDE(sub_epi16)(all, high)), q);
     return WIDE(packus_epi16)(WIDE(mulhi_epu16)(r, by), WIDE(mulhi_epu16)(t, by));
 }
-/* Corners along x by 16 bits: at most 255 x 256. Along y by 32 bits, from 2^15 less, because products are signed. */
-static inline lanei wide_between_x(lanei a, lanei b, lanei x)
+/* Two pixels of 128 bits, left and right texel each, along x: at most 255 x 256. x: the share in 16-bit places. */
+static inline lanei wide_between_x(lanei pair, lanei x)
 {
-    return WIDE(add_epi16)(WIDE(slli_epi16)(a, 8), WIDE(mullo_epi16)(WIDE(sub_epi16)(b, a), x));
+    const lanei left = WIDE(shuffle_epi8)(
+                    pair, WIDE_FOURS(_mm_setr_epi8(-1, 0, -1, 1, -1, 2, -1, 3, -1, 8, -1, 9, -1, 10, -1, 11))),
+                both = WIDE(shuffle_epi8)(
+                    pair, WIDE_FOURS(_mm_setr_epi8(0, 4, 1, 5, 2, 6, 3, 7, 8, 12, 9, 13, 10, 14, 11, 15)));
+    return WIDE(add_epi16)(left, WIDE(mullo_epi16)(WIDE(maddubs_epi16)(both, WIDE(set1_epi16)(0x01ff)), x));
 }
-static inline lanei wide_between_y(lanei pair, lanei y)
+/* The same along y, rounded. The difference has 17 bits: the product of its low 16 is too large by y if it is negative.
+ * y: the share x 256. */
+static inline lanei wide_between_y(lanei upper, lanei lower, lanei y)
 {
-    return WIDE(srli_epi32)(WIDE(add_epi32)(WIDE(madd_epi16)(pair, y), WIDE(set1_epi32)((1 << 23) + (1 << 15))),
-                             16);
+    const lanei more = WIDE(mulhi_epu16)(WIDE(sub_epi16)(lower, upper), y);
+    const lanei sum = WIDE(add_epi16)(WIDE(add_epi16)(upper, WIDE(set1_epi16)(128)), more);
+    return WIDE(srli_epi16)(WIDE_LESS_IF(sum, y, lower, upper), 8);
+}
+/* codes_between; pair: upper and lower texels of the first two pixels of 128 bits, then of the others. */
+static inline lanei codes_between_pairs(const lanei pair[4], lanei x, lanei y)
+{
+    const __m128i low0 = _mm_setr_epi8(0, -1, 0, -1, 0, -1, 0, -1, 4, -1, 4, -1, 4, -1, 4, -1),
+                  low1 = _mm_setr_epi8(8, -1, 8, -1, 8, -1, 8, -1, 12, -1, 12, -1, 12, -1, 12, -1),
+                  high0 = _mm_setr_epi8(-1, 0, -1, 0, -1, 0, -1, 0, -1, 4, -1, 4, -1, 4, -1, 4),
+                  high1 = _mm_setr_epi8(-1, 8, -1, 8, -1, 8, -1, 8, -1, 12, -1, 12, -1, 12, -1, 12);
+    const lanei x0 = WIDE(shuffle_epi8)(x, WIDE_FOURS(low0)), x1 = WIDE(shuffle_epi8)(x, WIDE_FOURS(low1));
+    const lanei y0 = WIDE(shuffle_epi8)(y, WIDE_FOURS(high0)), y1 = WIDE(shuffle_epi8)(y, WIDE_FOURS(high1));
+    return WIDE(packus_epi16)(wide_between_y(wide_between_x(pair[0], x0), wide_between_x(pair[1], x0), y0),
+                               wide_between_y(wide_between_x(pair[2], x1), wide_between_x(pair[3], x1), y1));
+}
+static inline void lanei_pair_corners(lanei out[4], const lanei corner[4])
+{
+    out[0] = WIDE(unpacklo_epi32)(corner[0], corner[1]);
+    out[1] = WIDE(unpacklo_epi32)(corner[2], corner[3]);
+    out[2] = WIDE(unpackhi_epi32)(corner[0], corner[1]);
+    out[3] = WIDE(unpackhi_epi32)(corner[2], corner[3]);
 }
 static inline lanei codes_between(const lanei corner[4], lanei x, lanei y)
 {
-    const lanei zero = WIDE_BITS(setzero)(), sign = WIDE(set1_epi16)(-32768);
-    const lanei shares = WIDE_BITS(or)(WIDE(sub_epi32)(WIDE(set1_epi32)(256), y), WIDE(slli_epi32)(y, 16));
-    const lanei xx = WIDE_BITS(or)(x, WIDE(slli_epi32)(x, 16)), x_low = WIDE(unpacklo_epi32)(xx, xx),
-                x_high = WIDE(unpackhi_epi32)(xx, xx);
-    lanei half[2];
-    for (int i = 0; i < 2; ++i) {
-        const lanei upper = wide_between_x(
-            i ? WIDE(unpackhi_epi8)(corner[0], zero) : WIDE(unpacklo_epi8)(corner[0], zero),
-            i ? WIDE(unpackhi_epi8)(corner[1], zero) : WIDE(unpacklo_epi8)(corner[1], zero), i ? x_high : x_low);
-        const lanei lower = wide_between_x(
-            i ? WIDE(unpackhi_epi8)(corner[2], zero) : WIDE(unpacklo_epi8)(corner[2], zero),
-            i ? WIDE(unpackhi_epi8)(corner[3], zero) : WIDE(unpacklo_epi8)(corner[3], zero), i ? x_high : x_low);
-        const lanei p = WIDE_BITS(xor)(upper, sign), q = WIDE_BITS(xor)(lower, sign);
-        half[i] =
-            WIDE(packs_epi32)(wide_between_y(WIDE(unpacklo_epi16)(p, q), i ? WIDE_SHUFFLE(shares, 0xaa)
-                                                                             : WIDE_SHUFFLE(shares, 0x00)),
-                               wide_between_y(WIDE(unpackhi_epi16)(p, q), i ? WIDE_SHUFFLE(shares, 0xff)
-                                                                             : WIDE_SHUFFLE(shares, 0x55)));
-    }
-    return WIDE(packus_epi16)(half[0], half[1]);
+    lanei pair[4];
+    lanei_pair_corners(pair, corner);
+    return codes_between_pairs(pair, x, y);
 }

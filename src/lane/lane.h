@@ -54,6 +54,19 @@ static inline lanei lanei_affine(int32_t at, int32_t per_x, int32_t per_y, int k
     return lanei_add(r, lanei_splat(at + per_y * (k / LMB_TILE)));
 }
 
+/* What lane_trunc cuts off values >= 0. Backends may override this. */
+#ifndef LANE_HAS_PART
+static inline lane lane_part(lane a) { return lane_sub(a, lane_trunc(a)); }
+#endif
+
+/* 0 <= a < n. Backends may override this. */
+#ifndef LANE_HAS_WITHIN
+static inline lane_mask lanei_within(lanei a, int32_t n)
+{
+    return mask_and(lanei_not_negative(a), lanei_lt(a, lanei_splat(n)));
+}
+#endif
+
 /* Four bytes each, at 4 * `at`: the first byte in the low bits, on every target. Backends may override this. */
 #ifndef LANE_GATHERS_RGBA
 static inline lanei lanei_gather_rgba(const uint8_t *p, lanei at)
@@ -90,8 +103,8 @@ static inline void lanei_store_some(uint8_t *p, int n, lanei a)
 
 /* Pixels of four 8-bit codes in a word, the highest one the share a. times: x y / 255; over: (x a + y (255 - a)) / 255
  * with the a of x; plus: x a / 255 + y, at most 255; same: x as over, for rows of one x; between: corners
- * at (0, 0), (1, 0), (0, 1), (1, 1), in the shares x and y of 256. All rounded to nearest. Backends may override these.
- */
+ * at (0, 0), (1, 0), (0, 1), (1, 1), in the shares of 256 that are the lowest bytes of x and y. All rounded to nearest.
+ * Backends may override these. */
 #ifndef LANE_HAS_CODES
 /* v / 255 of two codes at once, in the low and the high half. */
 LANE_INLINE lanei lanei_pair_255th(lanei v)
@@ -145,6 +158,8 @@ LANE_INLINE lanei codes_same(lanei x, lanei y) { return codes_over(x, y); }
 LANE_INLINE lanei lanei_code_at(lanei v, int shift) { return lanei_and(lanei_shift(v, shift), lanei_splat(255)); }
 LANE_INLINE lanei codes_between(const lanei corner[4], lanei x, lanei y)
 {
+    x = lanei_code_at(x, 0);
+    y = lanei_code_at(y, 0);
     const lanei all = lanei_splat(256), left = lanei_sub(all, x), upper = lanei_sub(all, y);
     const lanei a = lanei_mul(left, upper), b = lanei_mul(x, upper), c = lanei_mul(left, y), d = lanei_mul(x, y);
     lanei made = lanei_splat(0);

@@ -121,17 +121,22 @@ static inline lane lane_gather_u16(const uint16_t *p, lanei at)
     return _mm256_cvtepi32_ps(
         _mm256_setr_epi32(p[i[0]], p[i[1]], p[i[2]], p[i[3]], p[i[4]], p[i[5]], p[i[6]], p[i[7]]));
 }
+static inline lanei avx2_less_u16(lanei a, lanei b)
+{
+    const lanei sign = _mm256_set1_epi16(-32768);
+    return _mm256_cmpgt_epi16(_mm256_xor_si256(b, sign), _mm256_xor_si256(a, sign));
+}
 /* Codes of four pixels in each 128 bits. */
 #define LANE_HAS_CODES 1
 #define WIDE(verb) _mm256_##verb
 #define WIDE_BITS(verb) _mm256_##verb##_si256
 #define WIDE_FOURS(a) _mm256_broadcastsi128_si256(a)
-#define WIDE_SHUFFLE(a, order) _mm256_shuffle_epi32(a, order)
+#define WIDE_LESS_IF(v, by, a, b) _mm256_sub_epi16(v, _mm256_and_si256(by, avx2_less_u16(a, b)))
 #include "codes_wide.inl"
 #undef WIDE
 #undef WIDE_BITS
 #undef WIDE_FOURS
-#undef WIDE_SHUFFLE
+#undef WIDE_LESS_IF
 #define LANE_HAS_SOME 1
 static inline lanei avx2_first(int n)
 {
@@ -149,6 +154,18 @@ static inline void lanei_store_some(uint8_t *p, int n, lanei a)
 static inline lanei lanei_gather_rgba(const uint8_t *p, lanei at)
 {
     return _mm256_i32gather_epi32((const int *)(const void *)p, at, 4);
+}
+/* The pairs of codes_between_pairs: words at, at + 1 and, `below` bytes further, the same. */
+#define LANE_GATHERS_PAIRS 1
+static inline void lanei_gather_pairs(lanei pair[4], const uint8_t *p, ptrdiff_t below, lanei at)
+{
+    const __m256i all = _mm256_permute4x64_epi64(at, 0xd8);
+    const __m128i a = _mm256_castsi256_si128(all), b = _mm256_extracti128_si256(all, 1);
+    const long long *upper = (const long long *)(const void *)p, *lower = (const long long *)(const void *)(p + below);
+    pair[0] = _mm256_i32gather_epi64(upper, a, 4);
+    pair[1] = _mm256_i32gather_epi64(lower, a, 4);
+    pair[2] = _mm256_i32gather_epi64(upper, b, 4);
+    pair[3] = _mm256_i32gather_epi64(lower, b, 4);
 }
 #define LANE_GATHERS_I32 1
 static inline lanei lanei_gather_i32(const int32_t *p, lanei at)

@@ -58,6 +58,8 @@ static inline lane_mask lanei_not_negative(lanei a) { return _mm512_cmpge_epi32_
 static inline lane_mask lanei_equal(lanei a, lanei b) { return _mm512_cmpeq_epi32_mask(a, b); }
 static inline lanei lane_to_int(lane a) { return _mm512_cvttps_epi32(a); }
 static inline lane lane_from_int(lanei a) { return _mm512_cvtepi32_ps(a); }
+#define LANE_HAS_PART 1
+static inline lane lane_part(lane a) { return _mm512_reduce_ps(a, 3); }
 static inline lane lane_trunc(lane a) { return _mm512_cvtepi32_ps(_mm512_cvttps_epi32(a)); }
 
 #define AVX512_BOTH(f) a.lo = f(a.lo, b.lo), a.hi = f(a.hi, b.hi)
@@ -148,12 +150,12 @@ static inline lane lane_gather_u16(const uint16_t *p, lanei at)
 #define WIDE(verb) _mm512_##verb
 #define WIDE_BITS(verb) _mm512_##verb##_si512
 #define WIDE_FOURS(a) _mm512_broadcast_i32x4(a)
-#define WIDE_SHUFFLE(a, order) _mm512_shuffle_epi32(a, (_MM_PERM_ENUM)(order))
+#define WIDE_LESS_IF(v, by, a, b) _mm512_mask_sub_epi16(v, _mm512_cmplt_epu16_mask(a, b), v, by)
 #include "codes_wide.inl"
 #undef WIDE
 #undef WIDE_BITS
 #undef WIDE_FOURS
-#undef WIDE_SHUFFLE
+#undef WIDE_LESS_IF
 #define LANE_HAS_SOME 1
 static inline lanei lanei_load_some(const uint8_t *p, int n)
 {
@@ -165,7 +167,25 @@ static inline void lanei_store_some(uint8_t *p, int n, lanei a)
 }
 #define LANE_GATHERS_RGBA 1
 static inline lanei lanei_gather_rgba(const uint8_t *p, lanei at) { return _mm512_i32gather_epi32(at, p, 4); }
-/* Stores the lanes of the mask. */
+/* The pairs of codes_between_pairs: words at, at + 1 and, `below` bytes further, the same. */
+#define LANE_GATHERS_PAIRS 1
+static inline void lanei_gather_pairs(lanei pair[4], const uint8_t *p, ptrdiff_t below, lanei at)
+{
+    const __m512i all = _mm512_permutexvar_epi64(_mm512_setr_epi64(0, 2, 4, 6, 1, 3, 5, 7), at);
+    const __m256i a = _mm512_castsi512_si256(all), b = _mm512_extracti64x4_epi64(all, 1);
+    pair[0] = _mm512_i32gather_epi64(a, p, 4);
+    pair[1] = _mm512_i32gather_epi64(a, p + below, 4);
+    pair[2] = _mm512_i32gather_epi64(b, p, 4);
+    pair[3] = _mm512_i32gather_epi64(b, p + below, 4);
+}
+#define LANE_HAS_WITHIN 1
+static inline lane_mask lanei_within(lanei a, int32_t n) { return _mm512_cmplt_epu32_mask(a, _mm512_set1_epi32(n)); }
+/* Loads, or stores, the lanes of the mask. */
+static inline lanei lanei_load_rows_some(const uint8_t *p, int32_t step, lane_mask m)
+{
+    return _mm512_inserti32x8(_mm512_castsi256_si512(_mm256_maskz_loadu_epi32((__mmask8)m, p)),
+                              _mm256_maskz_loadu_epi32((__mmask8)(m >> 8), p + step), 1);
+}
 static inline void lane_store_rows_some(float *p, int32_t step, lane_mask m, lane a)
 {
     _mm256_mask_storeu_ps(p, (__mmask8)m, _mm512_castps512_ps256(a));

@@ -165,7 +165,9 @@ static inline lanei sse2_between_y(lanei pair, lanei y)
 }
 static inline lanei codes_between(const lanei corner[4], lanei x, lanei y)
 {
-    const lanei zero = _mm_setzero_si128(), sign = _mm_set1_epi16(-32768);
+    const lanei zero = _mm_setzero_si128(), sign = _mm_set1_epi16(-32768), byte = _mm_set1_epi32(255);
+    x = _mm_and_si128(x, byte);
+    y = _mm_and_si128(y, byte);
     const lanei shares = _mm_or_si128(_mm_sub_epi32(_mm_set1_epi32(256), y), _mm_slli_epi32(y, 16));
     const lanei xx = _mm_or_si128(x, _mm_slli_epi32(x, 16)), x_low = _mm_unpacklo_epi32(xx, xx),
                 x_high = _mm_unpackhi_epi32(xx, xx);

@@ -35,7 +35,7 @@ typedef struct verb_input {
     X(row, BITS) X(affine, BITS) X(dot, FLOAT) X(i_sub, BITS) X(i_min, BITS) X(i_max, BITS) X(i_pick, BITS) \
     X(i_lt, BITS) X(from_int, BITS) X(table, BITS) X(gather_rgba, BITS) X(gather_i32, BITS) X(sums, BITS) \
     X(from_double, BITS) X(codes_times, BITS) X(codes_over, BITS) X(codes_plus, BITS) X(codes_same, BITS) \
-    X(codes_between, BITS) X(load_some, BITS) \
+    X(codes_between, BITS) X(gather_pairs, BITS) X(load_some, BITS) X(part, BITS) X(i_within, BITS) \
     X(halves, BITS) X(add_halves, BITS)
 enum {
 #define VERB_NAME(name, results) VERB_##name,

@@ -42,6 +42,7 @@ static inline void run_floats(verb_output *out, const verb_input *in, int k)
     put_lane(out->row[VERB_max] + k, lane_max(a, b));
     put_lane(out->row[VERB_dot] + k, lane3_dot(p, q));
     put_lane(out->row[VERB_trunc] + k, lane_trunc(lane_load(in->whole + k)));
+    put_lane(out->row[VERB_part] + k, lane_part(lane_max(lane_load(in->whole + k), lane_splat(0.0f))));
     put_lanei(out->row[VERB_to_int] + k, lane_to_int(lane_load(in->whole + k)));
     put_lane(out->row[VERB_column] + k, lane_column(k));
     put_lane(out->row[VERB_row] + k, lane_row(k));
@@ -83,6 +84,7 @@ static inline void run_integers(verb_output *out, const verb_input *in, int k)
     put_lane(out->row[VERB_from_int] + k, lane_from_int(i));
     put_mask(out->row[VERB_i_not_negative] + k, lanei_not_negative(i));
     put_mask(out->row[VERB_i_equal] + k, lanei_equal(i, j));
+    put_mask(out->row[VERB_i_within] + k, lanei_within(i, 1 + (in->j[0] & 0x3fffffff)));
     put_lanei(out->row[VERB_halves] + k, lanei_halves(i, lanei_load(in->m + k)));
     put_lanei(out->row[VERB_add_halves] + k, lanei_add_halves(i, lanei_load(in->m + k)));
     put_lanei(out->row[VERB_affine] + k, lanei_affine(in->i[0], in->m[0] >> 12, in->n[0] >> 12, k));
@@ -142,7 +144,7 @@ static inline void run_memory(verb_output *out, const verb_input *in, int k)
 /* Of any pixels, and of pixels that have only the codes 0 and 255. */
 static inline void run_codes(verb_output *out, const verb_input *in, int k)
 {
-    lanei x, y, at = lanei_load(in->at + k), byte = lanei_splat(255), corner[4];
+    lanei x, y, at = lanei_load(in->at + k), corner[4], from;
     const int n = 1 + (int)(in->id % LANES);
     int32_t v[LANES], w[LANES];
     for (int i = 0; i < LANES; ++i) {
@@ -159,8 +161,19 @@ static inline void run_codes(verb_output *out, const verb_input *in, int k)
     for (int i = 0; i < 4; ++i) {
         corner[i] = i == 0 ? x : i == 1 ? y : lanei_gather_rgba(in->table_rgba, lanei_shift(at, i - 2));
     }
-    put_lanei(out->row[VERB_codes_between] + k,
-              codes_between(corner, lanei_and(y, byte), lanei_and(lanei_shift(x, 8), byte)));
+    put_lanei(out->row[VERB_codes_between] + k, codes_between(corner, y, lanei_shift(x, 8)));
+    from = lanei_shift(at, 1);
+    for (int i = 0; i < 4; ++i) {
+        const lanei past = lanei_splat(i % 2 + i / 2 * (VERB_TABLE / 2 - 1));
+        corner[i] = lanei_gather_rgba(in->table_rgba, lanei_add(from, past));
+    }
+    x = codes_between(corner, x, y);
+#ifdef LANE_GATHERS_PAIRS
+    lanei_gather_pairs(corner, in->table_rgba, 4 * (VERB_TABLE / 2 - 1), from);
+    x = codes_between_pairs(corner, lanei_load(v), y);
+#endif
+    put_lanei(out->row[VERB_gather_pairs] + k, x);
+    x = lanei_load(v);
     if (n < LANES && k == 0) { /* backends have different LANES: compare with the verb for all */
         const uint32_t first = (1u << n) - 1u;
         lanei_store_some((uint8_t *)out->stored_some, n, y);
