@@ -469,8 +469,13 @@ uint8_t *gl_copy_codes(gl_context *c, int32_t x, int32_t y, int32_t w, int32_t h
 GLenum gl_base_format(GLenum internal); /* GL_DEPTH_COMPONENT also with a stencil part */
 int gl_has_stencil(GLenum internal);
 
-/* Rows of depths are whole tiles, as draw.h requires. */
-static inline int32_t gl_depth_stride(int32_t width) { return (width + LMB_TILE - 1) / LMB_TILE * LMB_TILE; }
+/* Rows of depths are whole tiles, as draw.h requires. A load waits for an earlier store if their addresses differ by a
+ * multiple of 4 KiB, so rows of a tile are other distances apart. */
+static inline int32_t gl_depth_stride(int32_t width)
+{
+    const int32_t whole = (width + LMB_TILE - 1) / LMB_TILE * LMB_TILE;
+    return whole + (whole % 256 == 0 ? 16 : 0);
+}
 static inline int gl_is_on(const gl_context *c, int cap) { return (int)(c->s.caps >> cap & 1u); }
 static inline uint8_t gl_code(float v)
 {
