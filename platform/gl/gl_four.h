@@ -43,6 +43,10 @@ static inline void four_save_codes(uint8_t (*out)[4], four_bits codes, int count
 {
     uint32_t code[FOUR];
     memcpy(code, &codes, sizeof code);
+#if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+    memcpy(out, code, 4 * (size_t)count);
+    return;
+#endif
     for (int i = 0; i < count; ++i) {
         for (int n = 0; n < 4; ++n) {
             out[i][n] = (uint8_t)(code[i] >> 8 * n);
@@ -64,8 +68,13 @@ static inline int four_all(four_int mask)
 /* gl_unit_range. */
 static inline four four_range(four v)
 {
-    const four zero = four_splat(0.0f), one = four_splat(1.0f), high = FOUR_PICK(v > zero, v, zero);
+    const four zero = four_splat(0.0f), one = four_splat(1.0f);
+#if defined(__GNUC__) && defined(__SSE2__)
+    return (four)_mm_min_ps(_mm_max_ps((__m128)v, (__m128)zero), (__m128)one); /* the second one, if v is no number */
+#else
+    const four high = FOUR_PICK(v > zero, v, zero);
     return FOUR_PICK(high < one, high, one);
+#endif
 }
 
 /* A value 0 .. 1 as a code in byte n. */

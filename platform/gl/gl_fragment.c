@@ -469,7 +469,9 @@ static inline four four_mix(const fragment_value *v, const four share[2])
 /* Values of a primitive without textures: R, G, B, A; the secondary colour; the fog's distance. */
 typedef struct fragment_values {
     fragment_value colour[4], second[3], fog;
-    int adds, fogs; /* 1: a secondary colour that is not 0; fog */
+    four_bits alpha; /* its code, if it does not vary */
+    int varies;      /* channels that vary, or may: 3 or 4 */
+    int adds, fogs;  /* 1: a secondary colour that is not 0; fog */
 } fragment_values;
 
 static void fragment_set_values(fragment_values *out, const gl_context *c, const gl_made *const m[3], int side)
@@ -479,6 +481,9 @@ static void fragment_set_values(fragment_values *out, const gl_context *c, const
     for (int i = 0; i < 4; ++i) {
         out->colour[i] = fragment_value_of(m[0]->colour[side][i], m[1]->colour[side][i], m[2]->colour[side][i]);
     }
+    const fragment_value *alpha = &out->colour[3];
+    out->varies = alpha->more1 == 0.0f && alpha->more2 == 0.0f ? 3 : 4;
+    out->alpha = four_code(four_range(four_splat(out->varies == 3 ? alpha->at : 0.0f)), 3);
     for (int i = 0; i < 3; ++i) {
         const fragment_value v =
             fragment_value_of(m[0]->second[side][i], m[1]->second[side][i], m[2]->second[side][i]);
@@ -491,8 +496,8 @@ static void fragment_set_values(fragment_values *out, const gl_context *c, const
 static inline four_bits four_colours(const gl_context *c, const fragment_values *v, const four share[2])
 {
     const four left = v->fogs ? four_fog(four_mix(&v->fog, share), c) : four_splat(1.0f);
-    four_bits codes = (four_bits)four_to_int(four_splat(0.0f));
-    for (int n = 0; n < 4; ++n) {
+    four_bits codes = v->alpha;
+    for (int n = 0; n < v->varies; ++n) {
         four r = four_mix(&v->colour[n], share);
         if (v->adds && n < 3) {
             r += four_mix(&v->second[n], share);
