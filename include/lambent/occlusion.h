@@ -57,6 +57,7 @@ typedef struct lmb_bvh {
     lmb_boxes *node;
     uint32_t triangle_cap, triangle_count, node_cap, node_count;
     float noise; /* m: lower bound of the rounding that tests allow for: 0, but more in a convex room */
+    float margin; /* m: tests widen no triangle by more than this */
     const lmb_scene *scene; /* for the holes of masked triangles */
     lmb_hull hull;
 } lmb_bvh;

@@ -22,6 +22,7 @@ typedef struct sun_traversal {
     float noise;   /* m: possible distance of pixels from their surfaces by rounding */
     uint64_t left;    /* pixels not blocked so far */
     uint32_t blocker; /* the last triangle that blocked a pixel, + 1 */
+    lmb_vec3 low, high; /* box of the pixels of the current sweep, from `at` */
 } sun_traversal;
 
 /* 2^-22 of the coordinates and 2^-20 of the length of the ray that found them. */
@@ -91,25 +92,37 @@ static uint64_t sun_standing(const sun_traversal *w, const lmb_bvh_triangle *t, 
     return out;
 }
 
+/* 1 if a pixel lies within the edge from b to c, widened by `wider` m or more. */
+static inline int is_within_edge(const sun_traversal *w, lmb_vec3 b, lmb_vec3 c, float side, float wider, lmb_vec3 d)
+{
+    const lmb_vec3 edge = mul3(cross3(w->to, sub3(c, b)), side);
+    const float offset = side * dot3(cross3(b, c), w->to);
+    return dot3(edge, d) + (offset + wider * (absf(edge.x) + absf(edge.y) + absf(edge.z))) >= 0.0f;
+}
+
+static int is_within_job(const lmb_sun_job *job, lmb_vec3 d)
+{
+    return dot3(job->edge[0], d) + job->offset[0] >= 0.0f && dot3(job->edge[1], d) + job->offset[1] >= 0.0f &&
+           dot3(job->edge[2], d) + job->offset[2] >= 0.0f;
+}
+
 /* 1 if a triangle blocks this one pixel. Bit by bit the result of `sun_crossed`, with the cheapest test first. */
 static int sun_blocks_one(const sun_traversal *w, const lmb_bvh_triangle *t, uint64_t pixel)
 {
     const lmb_vec3 d = sub3(tile_vec(w->tile->position, lowest_bit_64(pixel)), w->at);
-    const lmb_vec3 a = sub3(t->corner[0], w->at), b = sub3(t->corner[1], w->at), c = sub3(t->corner[2], w->at);
+    const lmb_vec3 a = sub3(t->corner[0], w->at);
     const float along = dot3(t->normal, w->to), side = along < 0.0f ? -1.0f : 1.0f;
-    lmb_sun_job job;
-    if (eye_is_across(w->kept, t->normal, t->corner[0], along)) {
-        int inside = sun_job(&job, w, t) && job.beyond < dot3(job.normal, d);
-        for (int i = 0; i < 3 && inside; ++i) {
-            inside = dot3(job.edge[i], d) + job.offset[i] >= 0.0f;
-        }
-        return inside && (!(t->id & LMB_BVH_MASKED) || sun_standing(w, t, &job, pixel) != 0);
+    const lmb_vec3 normal = mul3(t->normal, -side);
+    if (!(absf(along) > MIN_RAY_SLOPE) || !(dot3(normal, a) - w->b->margin < dot3(normal, d))) {
+        return 0;
     }
-    return absf(along) > MIN_RAY_SLOPE &&
-           dot3(mul3(cross3(w->to, sub3(c, b)), side), d) + side * dot3(cross3(b, c), w->to) >= 0.0f &&
-           dot3(mul3(cross3(w->to, sub3(a, c)), side), d) + side * dot3(cross3(c, a), w->to) >= 0.0f &&
-           dot3(mul3(cross3(w->to, sub3(b, a)), side), d) + side * dot3(cross3(a, b), w->to) >= 0.0f &&
-           sun_job(&job, w, t) && job.beyond < dot3(job.normal, d) &&
+    const lmb_vec3 b = sub3(t->corner[1], w->at), c = sub3(t->corner[2], w->at);
+    /* more than sun_job widens it */
+    const float wider = eye_is_across(w->kept, t->normal, t->corner[0], along) ? 2.0f * w->b->margin : 0.0f;
+    lmb_sun_job job;
+    return is_within_edge(w, b, c, side, wider, d) && is_within_edge(w, c, a, side, wider, d) &&
+           is_within_edge(w, a, b, side, wider, d) && sun_job(&job, w, t) && job.beyond < dot3(job.normal, d) &&
+           (wider == 0.0f || is_within_job(&job, d)) &&
            (!(t->id & LMB_BVH_MASKED) || sun_standing(w, t, &job, pixel) != 0);
 }
 
@@ -133,11 +146,30 @@ static void test_kept(sun_traversal *w)
     }
 }
 
+/* The most that dot3(axis, pixel - at) is in the sweep: the same sums of larger terms, so rounding makes none less. */
+static inline float most_in_sweep(const sun_traversal *w, lmb_vec3 axis)
+{
+    return maxf(axis.x * w->low.x, axis.x * w->high.x) + maxf(axis.y * w->low.y, axis.y * w->high.y) +
+           maxf(axis.z * w->low.z, axis.z * w->high.z);
+}
+
+/* 1 if a triangle blocks no pixel of the sweep, because it lies behind all of them or along the rays. */
+static inline int is_behind_sweep(const sun_traversal *w, const lmb_bvh_triangle *t)
+{
+    const lmb_vec3 a = sub3(t->corner[0], w->at);
+    const float along = dot3(t->normal, w->to), side = along < 0.0f ? -1.0f : 1.0f;
+    const lmb_vec3 normal = mul3(t->normal, -side);
+    return !(absf(along) > MIN_RAY_SLOPE) || dot3(normal, a) - w->b->margin >= most_in_sweep(w, normal);
+}
+
 static void test_box(sun_traversal *w, const lmb_boxes *node, int i)
 {
     for (uint32_t k = 0; k < node->count[i] && w->left != 0 && !traversal_is_over(w->kept); ++k) {
         const uint64_t before = w->left;
         ++w->kept->spent;
+        if (is_behind_sweep(w, &w->b->triangle[node->first[i] + k])) {
+            continue;
+        }
         test_sun_triangle(w, node->first[i] + k);
         w->blocker = before != w->left ? node->first[i] + k + 1 : w->blocker;
         if (count_bits_64(before & ~w->left) >= MIN_BLOCKED_PIXELS) {
@@ -149,7 +181,7 @@ static void test_box(sun_traversal *w, const lmb_boxes *node, int i)
     }
 }
 
-static lmb_sun_sweep sweep_of(const sun_traversal *w)
+static lmb_sun_sweep sweep_of(sun_traversal *w)
 {
     const float d[3] = {w->to.x, w->to.y, w->to.z};
     lmb_vec3 low, high;
@@ -158,6 +190,8 @@ static lmb_sun_sweep sweep_of(const sun_traversal *w)
     for (int c = 0; c < 3; ++c) {
         s.per[c] = 1.0f / (absf(d[c]) < MIN_PYRAMID_M ? MIN_PYRAMID_M : d[c]);
     }
+    w->low = sub3(low, w->at);
+    w->high = sub3(high, w->at);
     s.low[0] = low.x;
     s.low[1] = low.y;
     s.low[2] = low.z;
@@ -308,7 +342,7 @@ uint64_t lmb_occluded_sun(const lmb_kernels *kernels, lmb_traversal *kept, const
     const uint32_t before = kept->spent;
     sun_traversal w = {
         bvh,    kernels, tile, tile_vec(tile->position, lowest_bit_64(pixels)), to, kept, noise_of_pixels(tile, pixels),
-        pixels, 0};
+        pixels, 0, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}};
     test_kept(&w);
     if (w.left != 0) {
         sun_trace(&w);

@@ -134,17 +134,25 @@ static void every_triangle(void)
     CHECK_MSG(occluded > 2000 && open > 2000, "%d blocked, %d open", occluded, open);
 }
 
-static uint64_t occluded_sun_fresh(const lmb_bvh *b, const lmb_tile *tile, uint64_t pixels, lmb_vec3 to)
+static uint64_t occluded_sun_seen(const lmb_bvh *b, const lmb_tile *tile, uint64_t pixels, lmb_vec3 to, int eye_kind,
+                                  lmb_vec3 eye)
 {
     lmb_traversal traversal;
     memset(&traversal, 0, sizeof traversal);
+    traversal.eye_kind = eye_kind;
+    traversal.eye = eye;
     return lmb_occluded_sun(picked_kernels(), &traversal, b, tile, pixels, to);
 }
 
-/* The same for directional light, sometimes along an axis. */
+static uint64_t occluded_sun_fresh(const lmb_bvh *b, const lmb_tile *tile, uint64_t pixels, lmb_vec3 to)
+{
+    return occluded_sun_seen(b, tile, pixels, to, LMB_EYE_NONE, Y);
+}
+
+/* The same for directional light, sometimes along an axis, and for all kinds of eyes. */
 static void every_triangle_of_suns(void)
 {
-    test_rng r = {78};
+    test_rng r = {78}, eyes = {79};
     int occluded = 0, open = 0, wrong = 0;
     for (int scene = 0; scene < 12; ++scene) {
         lmb_bvh b = random_triangles(&r, scene);
@@ -153,7 +161,7 @@ static void every_triangle_of_suns(void)
             const lmb_vec3 any = random_point(&r, 1.0f), to = round % 7 == 0 ? Y : mul3(any, 1.0f / length3(any));
             fill_tile(&tile, random_point(&r, 1.0f), round % 2 ? 0.01f : 0.7f, &r);
             const uint64_t asked = round % 3 == 0 ? ~UINT64_C(0) : (uint64_t)test_random(&r) << 21;
-            const uint64_t got = occluded_sun_fresh(&b, &tile, asked, to);
+            const uint64_t got = occluded_sun_seen(&b, &tile, asked, to, round % 5 % 3, random_point(&eyes, 2.0f));
             CHECK((got & ~asked) == 0);
             for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
                 const lmb_vec3 from = plane_vec(tile.position, k), end = add3(from, mul3(to, 1000.0f));
