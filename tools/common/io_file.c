@@ -357,8 +357,8 @@ int file_is_plain(const char *path, report *r)
 {
     struct stat s;
     errno = 0;
-    if (stat(path, &s) != 0) return cannot_read(r, path, "opened");
-    return IS_KIND(s, REG) || report_fail(r, "%s: not a file", path);
+    if (stat(path, &s) != 0) return r != NULL && cannot_read(r, path, "opened");
+    return IS_KIND(s, REG) || (r != NULL && report_fail(r, "%s: not a file", path));
 }
 
 int file_is_folder(const char *path)

@@ -19,7 +19,7 @@ typedef struct file_bytes {
 int file_read(file_bytes *out, const char *path, report *r);
 void file_free(file_bytes *file);
 
-/* file_is_plain: 1 for a regular file or a link to one; 0 for folders, devices and pipes. */
+/* file_is_plain: 1 for a regular file or a link to one; 0 for folders, devices and pipes. `r` may be NULL. */
 int file_is_plain(const char *path, report *r);
 
 /* file_is_folder: 1 for a folder or a link to one. */
