@@ -21,17 +21,20 @@ check "the demo for a Cortex-M4F" make_there "$BUILD/cortex-m/tiny/demo"
 
 "$here/demo" >"$here/demo.out"
 check "exit status here: $?" test $? -eq 0
-make_there run-demo >"$BUILD/cortex-m/tiny/demo.out"
-check "exit status on the Cortex-M4F: $?" test $? -eq 0
-
 echo "here:"
 sed 's/^/  /' "$here/demo.out"
-echo "Cortex-M4F:"
-sed 's/^/  /' "$BUILD/cortex-m/tiny/demo.out"
 hash_of() { awk '/^demo-/ { print $2 }' "$1"; }
 is=$(hash_of "$here/demo.out")
-there=$(hash_of "$BUILD/cortex-m/tiny/demo.out")
-check "hashes differ: $is here, $there there" test -n "$is" -a "$is" = "$there"
+check "the demo's picture" test -n "$is"
+# make check-all leaves out this frame, which takes 6 s: that of the packed scene below is of the same size and kind.
+if [ "${LMB_LONG:-2}" -ge 2 ]; then
+    make_there run-demo >"$BUILD/cortex-m/tiny/demo.out"
+    check "exit status on the Cortex-M4F: $?" test $? -eq 0
+    echo "Cortex-M4F:"
+    sed 's/^/  /' "$BUILD/cortex-m/tiny/demo.out"
+    there=$(hash_of "$BUILD/cortex-m/tiny/demo.out")
+    check "hashes differ: $is here, $there there" test "$is" = "$there"
+fi
 
 # A torus, with the bytes of the table of platform/README.md, and smaller pictures.
 torus_of() { sed -n 's/ bytes .*instructions [0-9]*//p' "$1"; }
