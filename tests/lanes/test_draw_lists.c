@@ -283,11 +283,74 @@ static int same_canvas(const canvas *a, const canvas *b)
            a->stats.triangles_dropped == b->stats.triangles_dropped;
 }
 
+#if LMB_DRAW_LANES
+/* --- whole triangles by one call ---------------------------------------------------------------------------------- */
+
+enum { AREA_WIDE = 128, AREA_HIGH = 32, AREAS = 300 };
+
+static lmb_kernels counting;
+static void (*area_of)(lmb_draw_area *area);
+static int areas;
+
+static void count_area(lmb_draw_area *area)
+{
+    ++areas;
+    area_of(area);
+}
+
+static void draw_area_case(uint32_t *out, float corners[3][3], const lmb_kernels *kernels)
+{
+    lmb_draw_target t;
+    lmb_draw_state s;
+    lmb_draw_vertices v;
+    memset(out, 0, AREA_WIDE * AREA_HIGH * sizeof *out);
+    memset(&t, 0, sizeof t);
+    memset(&v, 0, sizeof v);
+    CHECK(lmb_surface_init(&t.colour, LMB_RGBA8, AREA_WIDE, AREA_HIGH, out, AREA_WIDE * AREA_HIGH * sizeof *out) ==
+          LMB_OK);
+    CHECK(lmb_draw_state_init(&s, AREA_WIDE, AREA_HIGH) == LMB_OK && lmb_draw_pixels(&s) == LMB_OK);
+    s.kernels = kernels;
+    v.positions = corners[0];
+    v.count = 3;
+    CHECK(lmb_draw_list(&t, &s, &v, LMB_DRAW_TRIANGLES, NULL, NULL) == LMB_OK);
+}
+
+/* The kernel skips tiles left of a triangle. Corners are on a grid of half pixels, so that edges also pass through
+ * corners of tiles, and through centres of pixels at the tiles' rims. */
+static void check_areas(const lmb_kernels *backend)
+{
+    static uint32_t want[AREA_WIDE * AREA_HIGH], got[AREA_WIDE * AREA_HIGH];
+    test_rng r = seed_rng(11);
+    int unlike = 0;
+    counting = *backend;
+    area_of = counting.draw_area;
+    counting.draw_area = area_of != NULL ? count_area : NULL;
+    areas = 0;
+    for (int n = 0; n < AREAS; ++n) {
+        float corners[3][3] = {{0}};
+        for (int i = 0; i < 3; ++i) {
+            corners[i][0] = 0.5f * (float)any(&r, 2 * AREA_WIDE + 1);
+            corners[i][1] = 0.5f * (float)any(&r, 2 * AREA_HIGH + 1);
+        }
+        draw_area_case(want, corners, NULL);
+        draw_area_case(got, corners, &counting);
+        unlike += memcmp(want, got, sizeof want) != 0;
+    }
+    CHECK_MSG(unlike == 0, "%s: %d of %d triangles differ from plain C", lmb_kernels_name(backend), unlike, AREAS);
+    CHECK_MSG(area_of == NULL || areas > AREAS / 2, "%s: %d areas", lmb_kernels_name(backend), areas);
+}
+#else
+static void check_areas(const lmb_kernels *backend) { (void)backend; }
+#endif
+
 void test_draw_lists(void)
 {
     static canvas want, got;
     const seed_range range = seeds(ROUNDS);
     const lmb_kernels *backend;
+    for (int32_t i = 0; (backend = lmb_kernels_at(i)) != NULL; ++i) {
+        check_areas(backend);
+    }
     for (uint32_t k = 0; k < range.count; ++k) {
         test_rng r = seed_rng(range.first + k);
         lists l;
