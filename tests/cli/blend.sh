@@ -170,7 +170,7 @@ cat >unlit.gltf <<'EOF'
 "buffers":[{"byteLength":16,"uri":"data:;base64,//8AAAH/AAD/AQAAAQEAAA=="}]}
 EOF
 for how in "--exposure 0" "--exposure 3 --tone linear" ""; do
-    status 0 render unlit.gltf --size 16x16 --blend sorted $how -o unlit.ppm
+    status 0 render unlit.gltf --size 16x16 --shadow-map 64 --blend sorted $how -o unlit.ppm
     check "unlit layers keep their colours: $how" sh -c \
         '[ "$(tail -c 768 unlit.ppm | od -An -v -tu1 -w3 | sort -u | tr -s " ")" = " 225 207 198" ]'
 done

@@ -68,7 +68,7 @@ awk 'BEGIN { print "v -2000 0 -2000\nv -2000 0 2000\nv 2000 0 2000\nv 2000 0 -20
         printf "v %g %g %g\nv %g %g %g\n", x, y, z, x, y + 1, z + 0.5
         printf "v %g %g %g\nv %g %g %g\n", x + 1, y + 1, z + 0.5, x + 1, y, z
         printf "f %d %d %d %d\n", n + 1, n + 2, n + 3, n + 4 } }' >land.obj
-land="land.obj --light sun:0,9,0:-0.3,-1,-0.2:3,3,3 --eye 4,4,14 --target 4,1,4 --size 256x256 --show indirect"
+land="land.obj --light sun:0,9,0:-0.3,-1,-0.2:3,3,3 --eye 4,4,14 --target 4,5,4 --size 256x256 --show indirect"
 for way in "" "--gather full" "--gather live"; do
     status 0 render $land --quality draft $way -o "land${way##* }.pfm"
 done

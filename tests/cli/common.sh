@@ -133,7 +133,7 @@ compile() { (cd "$root" && $CC $FLAGS "$@"); }
 # pasted VERB...: checks that the examples of each verb's help work when pasted, with smaller numbers. Examples are all
 # lines below `examples` that begin with two blanks and do not end in a colon. Output goes to paste/said-WORD.txt; WORD
 # is the verb's last word.
-cheap='s/320x240/32x24/; s/160x120/32x24/; s/64x48/32x24/; s/24x16/12x8/; s/--voxels [56]/--voxels 4/
+cheap='s/320x240/32x24/; s/160x120/32x24/; s/64x48/32x24/; s/24x16/6x4/; s/--voxels [56]/--voxels 4/
     s/80x60/40x30/; s/72.43,72.43,39.5,29.5/36.2,36.2,19.5,14.5/
     /lambent pla/s/32x24/16x12/; s/--receivers [0-9]*/--receivers 200/
     s/--elements [0-9]*/--elements 256 --cluster 0.6/; s/--faces 32/--faces 8/; s/--seconds 0.1/--seconds 0.01/; s/--size 64 /--size 16 /

@@ -55,10 +55,10 @@ said "light 0 stands still: surfaces are too near for a circle; --path FILE move
 
 # --- an error is the only line, also if there are notes; without an error the notes are printed ---
 
-status 2 explain tent.obj --size 8x8 --pixel 9,9
+status 2 explain tent.obj --size 8x8 --shadow-map 64 --pixel 9,9
 check "one line" one_line err.txt
 status 1 render tent.obj $few --world missing -o x.png
-status 0 explain tent.obj --size 8x8 --pixel 4,4
+status 0 explain tent.obj --size 8x8 --shadow-map 64 --pixel 4,4
 said "no camera in tent.obj: framing the scene from"
 status 0 plan tent.obj --size 8x8
 said "no camera in tent.obj: framing the scene from"
@@ -83,9 +83,9 @@ status 1 mix $seen --placements list.txt
 said "$long.obj: cannot be opened: No such file or directory"
 
 # play prints its notes before its first picture.
-"$TOOL" play tent.obj --size 8x6 --quality draft --frames 3 -o noted%02d.ppm --time-limit 100 >out.txt 2>noted.txt
+"$TOOL" play tent.obj --size 8x6 --shadow-map 64 --quality draft --frames 3 -o noted%02d.ppm --time-limit 100 >out.txt 2>noted.txt
 check "play ends" test $? -eq 0
-"$TOOL" play tent.obj --size 320x240 --quality draft --frames 100000 --time-limit 1 >out.txt 2>cut.txt
+"$TOOL" play tent.obj --size 320x240 --shadow-map 64 --quality draft --frames 100000 --time-limit 1 >out.txt 2>cut.txt
 check "play ends at its limit" test $? -eq 1
 check "play prints its notes before the end" grep -qxFf noted.txt cut.txt
 check "play has notes" test -s noted.txt

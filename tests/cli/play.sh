@@ -51,7 +51,7 @@ status 0 play block.obj $inside --path object.txt --quality draft --fps 2 --from
 check "an object moves, and is the same alone" sh -c '! cmp -s "$1_00.pfm" "$1_02.pfm" && cmp -s "$1_02.pfm" "$2_02.pfm"' sh play alone
 status 1 play block.obj $inside --path object.txt $baked --frames 2 -o bad%02d.pfm
 said "object.txt: line 1: object:0 stands still in what was baked; bake it with --moving 0"
-little=$(echo "$inside" | sed s/32x24/8x6/)
+little=$(echo "$inside" | sed s/32x24/4x3/)
 status 0 play block.obj $little $baked --frames 3 --check 2 --stats play.json
 check "every second frame's error is told" sh -c 'test "$(grep -c "^frame [02] *trim 0\.[0-9]* *rmse 0\." "$1")" = 2' sh out.txt
 check "--stats of play has the whole frame" grep -q '"whole frame": {"clock": \[[0-9.]*, ' play.json

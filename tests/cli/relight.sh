@@ -72,7 +72,8 @@ check "a pattern wants a path" holds 'numbers pictures of a --path' err.txt
 series
 printf '0,0,0\n0,0,0\n0,0,0\n0,0,0\n' >rests.txt
 printf '0,0,0\n' >one.txt
-changes="relight --object demo --size 16x8 --eye 0,1,6 --target 0,1,0"
+box
+changes="relight --object box.obj --size 16x8 --eye 0,1,6 --target 0,1,0"
 status 0 $changes --world tone_%02d.pfm --world-every 2 --path rests.txt -o change_%01d.pfm
 check "light is new in a changed world, and kept in the last one" grep -q '^light computed 3 times, kept 1 times$' out.txt
 status 0 $changes --world tone_%02d.pfm --path rests.txt -o each_%01d.pfm

@@ -58,7 +58,7 @@ without_times() { # removes columns by name from a CSV
     awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) out[i] = $i == "mark" || $i == "seconds" || $i == "instructions" || $i ~ /^s / }
         { line = ""; for (i = 1; i <= NF; ++i) if (!out[i]) line = line "," $i; print line }' "$1"
 }
-sweep="lambent-bench demo --size 12x8 --runs 1 --cache kept --shadow-map 64 --sweep tree=8,16,32 --sweep error=0.05,0.1"
+sweep="lambent-bench demo --size 6x4 --runs 1 --cache kept --shadow-map 64 --sweep tree=8,16,32 --sweep error=0.05,0.1"
 status 0 $sweep --breakdown 0 -o sweep
 for i in 2 4 3 1; do
     status 0 $sweep --slice $i/4 -o part

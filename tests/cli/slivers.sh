@@ -16,7 +16,7 @@ strips() { # strips STRIPS SPLINTERS ELEMENTS: how many elements they get, in `e
             printf "v %.5f 1 1.9\nv %.5f 1 1.9\nv %.5f 1 1.86\nf -3 -2 -1\n", x, x + 0.0002, x
         }
     }' >strips.obj
-    status 0 bake strips.obj -o strips.lmt --elements $3 --receivers 2000 --division 1 --error 1 --once
+    status 0 bake strips.obj -o strips.lmt --elements $3 --cluster 5 --division 1 --error 1 --once
     elements=$(sed -n 's/.*: \([0-9]*\) elements.*/\1/p' out.txt)
 }
 if [ -z "$SHORT" ]; then
@@ -39,7 +39,7 @@ awk 'function block(x0, y0, z0, x1, y1, z1,  i) {
                  printf "v %.5f 0.5 0.2\nv %.5f 0.5 0.2\nv %.5f 0.5 3.8\nf -3 -1 -2\n", x, x + 0.003, x + 0.003
              } }' >through.obj
 if [ -z "$SHORT" ]; then
-    status 0 bake through.obj -o through.lmt --elements 256 --receivers 1000 --division 1 --error 1 --once
+    status 0 bake through.obj -o through.lmt --elements 256 --cluster 5 --division 1 --error 1 --once
     elements=$(sed -n 's/.*: \([0-9]*\) elements.*/\1/p' out.txt)
     check "slivers through a block leave the room its elements: $elements" test "$elements" -gt 128
 fi

@@ -24,31 +24,31 @@ lamp="--light sun:0,0,5:0,0,-1:9,9,9"
 
 is_wall() { [ "$(tail -c 768 "$1" | od -An -v -tu1 -w3 | sort -u | tr -s ' ')" = " 188 137 99" ]; }
 for how in "--exposure 0" "--exposure 3 --tone linear" "--exposure -2 --samples 1" "" "--show direct --quality draft" "--world sky"; do
-    status 0 render wall.gltf --size 16x16 $how -o wall.ppm
+    status 0 render wall.gltf --size 16x16 --shadow-map 64 $how -o wall.ppm
     check "an unlit wall shows its colour: $how" is_wall wall.ppm
 done
-status 0 render wall.gltf --size 16x16 $lamp --exposure 1 -o wall.ppm
+status 0 render wall.gltf --size 16x16 --shadow-map 64 $lamp --exposure 1 -o wall.ppm
 check "an unlit wall shows its colour in light" is_wall wall.ppm
-status 0 play wall.gltf --size 16x16 $lamp --frames 2 -o wall%02d.ppm
+status 0 play wall.gltf --size 16x16 --shadow-map 64 $lamp --frames 2 -o wall%02d.ppm
 check "an unlit wall shows its colour in each frame" is_wall wall01.ppm
-status 0 render wall.gltf --size 16x16 --stereo 0.1 --exposure 2 -o eyes.ppm
+status 0 render wall.gltf --size 16x16 --shadow-map 64 --stereo 0.1 --exposure 2 -o eyes.ppm
 check "and to both eyes" sh -c '[ "$(tail -c 1536 eyes.ppm | od -An -v -tu1 -w3 | sort -u | tr -s " ")" = " 188 137 99" ]'
 
 # A lit square in front of the wall has the same exposure as without the wall. Its edges are mixed.
 pixel() { tail -c 768 "$1" | od -An -v -tu1 -j $((3 * $2)) -N 3 | tr -s ' '; } # pixel FILE NUMBER
 for how in "--exposure -1" ""; do
-    status 0 render both.gltf --size 16x16 $lamp $how -o both.ppm
+    status 0 render both.gltf --size 16x16 --shadow-map 64 $lamp $how -o both.ppm
     check "the wall beside a lit square: $how" test "$(pixel both.ppm 0)" = " 188 137 99"
     check "the lit square is not of the wall's colour: $how" test "$(pixel both.ppm 136)" != " 188 137 99"
 done
-status 0 render both.gltf --size 16x16 $lamp --exposure -1 --show direct -o both.ppm
-status 0 render lit.gltf --size 16x16 $lamp --exposure -1 --show direct -o lit.ppm
+status 0 render both.gltf --size 16x16 --shadow-map 64 $lamp --exposure -1 --show direct -o both.ppm
+status 0 render lit.gltf --size 16x16 --shadow-map 64 $lamp --exposure -1 --show direct -o lit.ppm
 check "light on what is lit stays as it was" test "$(pixel both.ppm 136)" = "$(pixel lit.ppm 136)"
 check "the wall was lit otherwise" test "$(pixel lit.ppm 0)" != " 188 137 99"
 for i in 1 2; do
-    status 0 render both.gltf --size 16x16 $lamp --slice $i/2 -o parts.png
+    status 0 render both.gltf --size 16x16 --shadow-map 64 $lamp --slice $i/2 -o parts.png
 done
-status 0 render both.gltf --size 16x16 $lamp -o whole.png
+status 0 render both.gltf --size 16x16 --shadow-map 64 $lamp -o whole.png
 status 0 merge parts.png.*of2 -o parts.png
 check "in slices too" cmp parts.png whole.png
 
