@@ -23,7 +23,7 @@ own() {
     if cmp -s "$out/own.txt" $here/own.txt; then good; else bad "own: $out/own.txt is not $here/own.txt"; fi
 }
 
-# Hostile arguments, batches at the edges of the picture, two contexts in two threads, and lists that fill
+# Hostile arguments, batches at the edges of the picture, two contexts in two threads, lit vertices, and lists that fill
 # the memory. CFLAGS are those of the library, as a sanitizer needs.
 program() {
     if ! ${CC:-cc} ${CFLAGS:-} -std=gnu99 -O1 -Iplatform/gl/include -o "$out/$1" "$2" "$gl/libGL.a" -lm -lpthread; then
@@ -36,6 +36,7 @@ hostile() { program hostile tests/fuzz/main_gl.c; }
 outside() { program outside $here/outside.c; }
 threads() { program threads $here/threads.c; }
 full() { program full $here/full.c; }
+fours() { program fours $here/fours.c; }
 
 # Bounced light: the checks of bounced.c, and the same pictures by every back end.
 bounced() {
@@ -97,8 +98,8 @@ piglit() {
     if [ -z "$missing" ]; then good; else bad "piglit: $missing"; fi
 }
 
-clients=${GL_CLIENTS:-own hostile outside threads full bounced glu glfw pyopengl piglit}
-[ "$clients" = fast ] && clients="own hostile outside threads full bounced glu glfw pyopengl"
+clients=${GL_CLIENTS:-own hostile outside threads full fours bounced glu glfw pyopengl piglit}
+[ "$clients" = fast ] && clients="own hostile outside threads full fours bounced glu glfw pyopengl"
 for client in $clients; do
     $client
 done
