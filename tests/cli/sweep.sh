@@ -49,7 +49,7 @@ status 0 lambent-bench relight --world demo --object demo --at 0,0,0 --size 12x8
 check "objects by samples: more are nearer to the truth" sh -c 'awk -F, "NR == 1 { for (i = 1; \$i != \"trim\"; ++i); next } { e[NR] = \$i } END { exit !(e[2] > e[3]) }" "$1"' sh objects.csv
 status 0 lambent-bench relief pit.obj --runs 1 --size 16 --triangles 20 --sweep views=6,14
 check "reliefs by views" test "$(grep -c -- '--views' out.txt)" -eq 2
-status 0 lambent-bench mix $seen --object tent.obj --light sun:0,0,0:0.6,-0.2,-1:2,2,2 --runs 1 --sweep voxels=4 --truth mixed.pfm
+status 0 lambent-bench mix $seen --object tent.obj --light sun:0,0,0:0.6,-0.2,-1:2,2,2 --runs 1 --sweep voxels=4,5 --truth mixed.pfm
 status 2 lambent-bench mix $seen --show planes
 
 finish
