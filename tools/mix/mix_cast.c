@@ -18,10 +18,13 @@ enum { COLUMNS = 80 /* of places, about */, WAYS = 240, TURNS = 8, RAYS = 16, TE
 #define RED_STOPS  0.5f /* maximum difference from the plane's mean colour: sun and sky differ in blue */
 #define BLUE_STOPS 0.9f
 #define DARKER  3.0    /* stops: a larger step is a picture or a rug, not a shadow */
-#define EVEN    0.95  /* most of a plane's light that a near light may send */
+#define EVEN    0.95  /* most of a plane's light that a light may send */
 #define GRAIN   1e-3  /* variance of a place's light that shows nothing */
-#define OTHERS  0.05  /* minimum part of a near light's light on other planes than one */
+#define OTHERS  0.05  /* minimum part of the explained variance on other planes than one */
+#define NEARER  0.3f  /* a near light must explain so much more than a sun, as it has more unknowns */
 #define BRIGHT  3.0f /* limit of a place's light, relative to the plane's mean */
+#define NARROWEST 1.0f /* degrees */
+#define WIDEST  50.0f
 #define STOPS   1.5f   /* limit of a place's deviation: pictures on a wall are not shadows */
 
 /* A place on a plane: the deviation of the light from the plane's other places, in stops, with smooth variation
@@ -37,12 +40,14 @@ typedef struct cast {
     lmb_bvh bvh;
     void *memory;
     place *all; /* by plane */
-    float *lit;  /* by place: visible share of the tested sun, 0 .. 1 */
+    float *seen; /* by place: visible share of the tested light, 0 .. 1; later without the smooth variation */
+    float *lit;  /* by place: light that the tested light sends, relative to a surface that faces it at the foot */
     float *open; /* by place: visible share of the sky, 0 .. 1; later without the smooth variation */
     int32_t first[LMB_MAX_PLANES + 1];
-    double even[LMB_MAX_PLANES]; /* by plane: squared differences from even light */
     lmb_traversal traversal;
-    double total; /* sum of squared light deviations */
+    double cosine[LMB_MAX_PLANES]; /* by plane: to the tested light, in the mean */
+    double total;  /* sum of squared deviations of `light` */
+    double uneven; /* sum of squared deviations of `plain`, and grain */
 } cast;
 
 static float dot(lmb_vec3 a, lmb_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
@@ -187,8 +192,8 @@ static void flatten(float *value, size_t stride, const place *p, int32_t n)
     }
 }
 
-/* Divides by the plane's mean. */
-static void level(place *p, int32_t n)
+/* Divides by the plane's mean. Returns the sum of squared differences from it. */
+static double level(place *p, int32_t n)
 {
     double sum = 0.0;
     for (int32_t i = 0; i < n; ++i) {
@@ -197,6 +202,12 @@ static void level(place *p, int32_t n)
     for (int32_t i = 0; i < n; ++i) {
         p[i].plain = fminf(p[i].plain * (float)((double)n / sum), BRIGHT);
     }
+    double mean = 0.0, squares = 0.0;
+    for (int32_t i = 0; i < n; ++i) {
+        mean += (double)p[i].plain / n;
+        squares += (double)(p[i].plain * p[i].plain);
+    }
+    return fmax(squares - mean * mean * n, 0.0);
 }
 
 static void find_places(cast *c)
@@ -212,7 +223,7 @@ static void find_places(cast *c)
         if (count > 0) {
             flatten(&here->light, sizeof *here / sizeof(float), here, count);
         }
-        level(here, count);
+        c->uneven += level(here, count) + GRAIN * count;
         for (int32_t i = 0; i < count; ++i) {
             here[i].light = fminf(fmaxf(here[i].light, -STOPS), STOPS);
             c->total += (double)(here[i].light * here[i].light);
@@ -221,7 +232,33 @@ static void find_places(cast *c)
     c->first[c->j->planes.count] = n;
 }
 
-/* --- a sun -------------------------------------------------------------------------------------------------------- */
+/* --- the light of a candidate --------------------------------------------------------------------------------- */
+
+/* Sets the positions of up to 64 places from i on. Returns their number. */
+static int32_t set_tile(lmb_tile *out, const cast *c, int32_t i)
+{
+    const int32_t left = c->first[c->j->planes.count] - i, count = left < LMB_TILE_PIXELS ? left : LMB_TILE_PIXELS;
+    memset(out, 0, sizeof *out);
+    for (int32_t k = 0; k < count; ++k) {
+        const place *p = &c->all[i + k];
+        const float at[3] = {p->at.x, p->at.y, p->at.z};
+        for (int a = 0; a < 3; ++a) {
+            out->position[a][k] = at[a];
+        }
+        out->depth[k] = p->depth;
+        out->id[k] = 1;
+    }
+    return count;
+}
+
+static void clear_seen(cast *c) { memset(c->seen, 0, (size_t)c->first[c->j->planes.count] * sizeof *c->seen); }
+
+static void add_mask(cast *c, int32_t i, int32_t count, uint64_t seen, float weight)
+{
+    for (int32_t k = 0; k < count; ++k) {
+        c->seen[i + k] += (seen >> k & 1u) != 0 ? weight : 0.0f;
+    }
+}
 
 /* Adds `weight` to the places that see the sun. */
 static void add_seen(cast *c, lmb_vec3 to, float weight)
@@ -230,63 +267,52 @@ static void add_seen(cast *c, lmb_vec3 to, float weight)
     for (int32_t i = 0; i < all; i += LMB_TILE_PIXELS) {
         lmb_tile tile;
         uint64_t asked = 0;
-        memset(&tile, 0, sizeof tile);
-        for (int32_t k = 0; k < LMB_TILE_PIXELS && i + k < all; ++k) {
-            const place *p = &c->all[i + k];
-            const float at[3] = {p->at.x, p->at.y, p->at.z};
-            for (int a = 0; a < 3; ++a) {
-                tile.position[a][k] = at[a];
-            }
-            tile.depth[k] = p->depth;
-            tile.id[k] = 1;
-            asked |= (uint64_t)(dot(p->normal, to) > 0.05f) << k;
+        const int32_t count = set_tile(&tile, c, i);
+        for (int32_t k = 0; k < count; ++k) {
+            asked |= (uint64_t)(dot(c->all[i + k].normal, to) > 0.05f) << k;
         }
-        const uint64_t seen =
-            asked & ~(asked != 0 ? lmb_occluded_sun(c->j->o.kernels, &c->traversal, &c->bvh, &tile, asked, to) : 0);
-        for (int32_t k = 0; k < LMB_TILE_PIXELS && i + k < all; ++k) {
-            c->lit[i + k] += (seen >> k & 1u) != 0 ? weight : 0.0f;
-        }
+        const uint64_t hidden =
+            asked != 0 ? lmb_occluded_sun(c->j->o.kernels, &c->traversal, &c->bvh, &tile, asked, to) : 0;
+        add_mask(c, i, count, asked & ~hidden, weight);
     }
 }
 
-/* Adds one direction to the cosine-weighted visible share of the sky. */
-static void add_open(cast *c, lmb_vec3 to)
+/* Adds `weight` to the places that see a point. */
+static void add_seen_point(cast *c, lmb_vec3 at, float weight)
 {
-    for (int32_t i = 0; i < c->first[c->j->planes.count]; ++i) {
-        c->open[i] += c->lit[i] * fmaxf(dot(c->all[i].normal, to), 0.0f) * (2.0f / WAYS);
+    const int32_t all = c->first[c->j->planes.count];
+    for (int32_t i = 0; i < all; i += LMB_TILE_PIXELS) {
+        lmb_tile tile;
+        uint64_t asked = 0;
+        const int32_t count = set_tile(&tile, c, i);
+        for (int32_t k = 0; k < count; ++k) {
+            asked |= (uint64_t)(dot(plus(at, c->all[i + k].at, -1.0f), c->all[i + k].normal) > 0.0f) << k;
+        }
+        const float noise = lmb_tile_noise(&tile, asked) + lmb_place_noise(at, 0.0f);
+        const uint64_t hidden =
+            asked != 0 ? lmb_occluded_tile(c->j->o.kernels, &c->traversal, &c->bvh, &tile, asked, at, noise) : 0;
+        add_mask(c, i, count, asked & ~hidden, weight);
     }
 }
 
-/* Returns the squared stops that the sun's shadows explain, minus those with the wrong sign. *stops: darkening by a
- * shadow on a surface that faces the sun. */
-static double explain(cast *c, lmb_vec3 to, float size, double *stops, int is_first)
+/* Returns the squared stops that the shadows in c->seen explain, minus those with the wrong sign. *stops: darkening by
+ * a shadow on a surface that faces the light. Removes the smooth variation from c->seen. */
+static double explain_shadows(cast *c, double *stops)
 {
-    const int32_t all = c->first[c->j->planes.count], rays = size > 0.0f ? RAYS : 1;
     double sum = 0.0, xy = 0.0, xx = 0.0;
-    const lmb_vec3 other = fabsf(to.x) < 0.5f ? (lmb_vec3){1, 0, 0} : (lmb_vec3){0, 0, 1},
-                   a = unit(plus(other, to, -dot(other, to))),
-                   b = {to.y * a.z - to.z * a.y, to.z * a.x - to.x * a.z, to.x * a.y - to.y * a.x};
-    memset(c->lit, 0, (size_t)all * sizeof *c->lit);
-    for (int32_t i = 0; i < rays; ++i) {
-        const float far = tanf(0.5f * size * (PI / 180.0f)) * sqrtf(((float)i + 0.5f) / (float)rays),
-                    turn = 2.3999632f * (float)i;
-        add_seen(c, rays > 1 ? unit(plus(plus(to, a, far * cosf(turn)), b, far * sinf(turn))) : to, 1.0f / (float)rays);
-    }
-    if (is_first) {
-        add_open(c, to);
-    }
     for (int32_t p = 0; p < c->j->planes.count; ++p) {
         const int32_t n = c->first[p + 1] - c->first[p];
         const place *here = c->all + c->first[p];
+        float *seen = c->seen + c->first[p];
+        const double cosine = c->cosine[p];
         double here_xy = 0.0, here_xx = 0.0;
-        const double cosine = n > 0 ? (double)dot(here->normal, to) : 0.0;
-        if (!(cosine > 0.05)) {
+        if (n == 0 || !(cosine > 0.05)) {
             continue;
         }
-        flatten(c->lit + c->first[p], 1, here, n);
+        flatten(seen, 1, here, n);
         for (int32_t i = 0; i < n; ++i) {
-            here_xy += (double)(c->lit[c->first[p] + i] * here[i].light);
-            here_xx += (double)(c->lit[c->first[p] + i] * c->lit[c->first[p] + i]);
+            here_xy += (double)(seen[i] * here[i].light);
+            here_xx += (double)(seen[i] * seen[i]);
         }
         if (here_xx > 1.0) {
             sum += (here_xy > 0.0 ? 1.0 : -1.0) * here_xy * here_xy / here_xx;
@@ -298,89 +324,12 @@ static double explain(cast *c, lmb_vec3 to, float size, double *stops, int is_fi
     return sum;
 }
 
-static lmb_vec3 way(int32_t i)
+/* Returns the squares that the light in c->lit explains if the colour and the even light of each plane are unknown. A
+ * pattern on one plane can look like such light, so a part must be of other planes. *share: the light on a surface that
+ * faces it, relative to the even light. */
+static double explain_falloff(const cast *c, double *share)
 {
-    const float y = LOWEST + (0.995f - LOWEST) * ((float)i + 0.5f) / WAYS, flat = sqrtf(1.0f - y * y),
-                turn = 2.3999632f * (float)i;
-    return (lmb_vec3){flat * cosf(turn), y, flat * sinf(turn)};
-}
-
-/* --- a near light ------------------------------------------------------------------------------------------------- */
-
-/* Sets the light that a near light at `at` sends to the places; 1 is a surface `distance` m away that faces it. */
-static void set_lamp(cast *c, lmb_vec3 at, float distance)
-{
-    const int32_t all = c->first[c->j->planes.count];
-    for (int32_t i = 0; i < all; i += LMB_TILE_PIXELS) {
-        lmb_tile tile;
-        uint64_t asked = 0;
-        float sent[LMB_TILE_PIXELS] = {0};
-        memset(&tile, 0, sizeof tile);
-        for (int32_t k = 0; k < LMB_TILE_PIXELS && i + k < all; ++k) {
-            const place *p = &c->all[i + k];
-            const lmb_vec3 to = plus(at, p->at, -1.0f);
-            const float from[3] = {p->at.x, p->at.y, p->at.z}, d2 = fmaxf(dot(to, to), 1e-4f);
-            for (int a = 0; a < 3; ++a) {
-                tile.position[a][k] = from[a];
-            }
-            tile.depth[k] = p->depth;
-            tile.id[k] = 1;
-            sent[k] = dot(to, p->normal) * distance * distance / (d2 * sqrtf(d2));
-            asked |= (uint64_t)(sent[k] > 0.0f) << k;
-        }
-        const float noise = lmb_tile_noise(&tile, asked) + lmb_place_noise(at, 0.0f);
-        const uint64_t seen =
-            asked & ~(asked != 0 ? lmb_occluded_tile(c->j->o.kernels, &c->traversal, &c->bvh, &tile, asked, at, noise)
-                                 : 0);
-        for (int32_t k = 0; k < LMB_TILE_PIXELS && i + k < all; ++k) {
-            c->lit[i + k] = (seen >> k & 1u) != 0 ? sent[k] : 0.0f;
-        }
-    }
-}
-
-/* Returns the squared differences of a plane's places from even light plus `ratio` times the light in c->lit. */
-static double misfit(const cast *c, int32_t p, double ratio)
-{
-    const int32_t n = c->first[p + 1] - c->first[p];
-    const place *here = c->all + c->first[p];
-    const float *lit = c->lit + c->first[p];
-    double mean = 0.0, sum = 0.0;
-    for (int32_t i = 0; i < n; ++i) {
-        mean += (1.0 + ratio * (double)lit[i]) / n;
-    }
-    for (int32_t i = 0; i < n; ++i) {
-        const double off = (double)here[i].plain - (1.0 + ratio * (double)lit[i]) / mean;
-        sum += off * off;
-    }
-    return sum;
-}
-
-/* Returns the share of the places' variance that the light in c->lit explains if each plane has an unknown colour, and
- * all have the same even light. A pattern on one plane can look like such light, so a part of the share must
- * be of other planes. */
-static double fits_even(const cast *c)
-{
-    double total = GRAIN * (double)c->first[c->j->planes.count], best = 0.0;
-    for (int32_t p = 0; p < c->j->planes.count; ++p) {
-        total += c->even[p];
-    }
-    for (double ratio = 0.25; ratio < 20.0; ratio *= 2.0) {
-        double sum = 0.0, largest = 0.0;
-        for (int32_t p = 0; p < c->j->planes.count; ++p) {
-            const double by = c->even[p] - misfit(c, p, ratio);
-            sum += by;
-            largest = fmax(largest, by);
-        }
-        best = fmax(best, fmin(sum, (sum - largest) / OTHERS) / total);
-    }
-    return best;
-}
-
-/* Returns the squares that the light in c->lit explains if the even light of each plane is unknown too, which gives a
- * better direction. *share: the lamp's light on a surface that faces it, relative to the even light. */
-static double fits(const cast *c, double *share)
-{
-    double sum = 0.0, lamp = 0.0, even = 1e-9;
+    double sum = 0.0, largest = 0.0, sent = 0.0, even = 1e-9;
     for (int32_t p = 0; p < c->j->planes.count; ++p) {
         const int32_t n = c->first[p + 1] - c->first[p];
         const place *here = c->all + c->first[p];
@@ -395,54 +344,165 @@ static double fits(const cast *c, double *share)
             xy += dx * ((double)here[i].plain - 1.0);
         }
         if (xy > 0.0 && xx > 1e-9) {
-            const double by = fmin(xy / xx, EVEN / fmax(x, 1e-9)); /* the rest is even light */
-            sum += 2.0 * by * xy - by * by * xx;
-            lamp += by * by * xx;
+            const double by = fmin(xy / xx, EVEN / fmax(x, 1e-9)), /* the rest is even light */
+                         here_sum = 2.0 * by * xy - by * by * xx;
+            sum += here_sum;
+            largest = fmax(largest, here_sum);
+            sent += by * by * xx;
             even += by * (1.0 - by * x) * xx;
         }
     }
-    *share = lamp / even;
-    return sum;
+    *share = sent / even;
+    return fmin(sum, (sum - largest) / OTHERS);
 }
 
-/* Keeps the lamp at `at` if it explains more than the best one so far. */
-static void try_lamp(mix_lamp *out, double *best, lmb_vec3 *best_at, cast *c, lmb_vec3 at, lmb_vec3 foot)
+/* --- a sun -------------------------------------------------------------------------------------------------------- */
+
+/* Adds one direction to the cosine-weighted visible share of the sky. */
+static void add_open(cast *c, lmb_vec3 to)
+{
+    for (int32_t i = 0; i < c->first[c->j->planes.count]; ++i) {
+        c->open[i] += c->seen[i] * fmaxf(dot(c->all[i].normal, to), 0.0f) * (2.0f / WAYS);
+    }
+}
+
+static void see_sun(cast *c, lmb_vec3 to, float size)
+{
+    const int32_t rays = size > 0.0f ? RAYS : 1;
+    const lmb_vec3 other = fabsf(to.x) < 0.5f ? (lmb_vec3){1, 0, 0} : (lmb_vec3){0, 0, 1},
+                   a = unit(plus(other, to, -dot(other, to))),
+                   b = {to.y * a.z - to.z * a.y, to.z * a.x - to.x * a.z, to.x * a.y - to.y * a.x};
+    clear_seen(c);
+    for (int32_t i = 0; i < rays; ++i) {
+        const float far = tanf(0.5f * size * (PI / 180.0f)) * sqrtf(((float)i + 0.5f) / (float)rays),
+                    turn = 2.3999632f * (float)i;
+        add_seen(c, rays > 1 ? unit(plus(plus(to, a, far * cosf(turn)), b, far * sinf(turn))) : to, 1.0f / (float)rays);
+    }
+}
+
+/* As explain_shadows, for a sun. */
+static double explain(cast *c, lmb_vec3 to, float size, double *stops, int is_first)
+{
+    see_sun(c, to, size);
+    if (is_first) {
+        add_open(c, to);
+    }
+    for (int32_t p = 0; p < c->j->planes.count; ++p) {
+        c->cosine[p] = c->first[p + 1] > c->first[p] ? (double)dot(c->all[c->first[p]].normal, to) : 0.0;
+    }
+    return explain_shadows(c, stops);
+}
+
+static lmb_vec3 way(int32_t i)
+{
+    const float y = LOWEST + (0.995f - LOWEST) * ((float)i + 0.5f) / WAYS, flat = sqrtf(1.0f - y * y),
+                turn = 2.3999632f * (float)i;
+    return (lmb_vec3){flat * cosf(turn), y, flat * sinf(turn)};
+}
+
+/* --- a near light ------------------------------------------------------------------------------------------------- */
+
+/* A near light: a ball, or a window whose light falls off with the angle to its level way to the foot. */
+typedef struct lamp {
+    lmb_vec3 at;
+    float radius;
+    double by, by_shadows, share; /* what it explains, and its light relative to the even light */
+} lamp;
+
+/* Sets the light that the lamp sends to the places. */
+static void set_lit(cast *c, lmb_vec3 at, lmb_vec3 foot, int is_window)
+{
+    const lmb_vec3 off = plus(at, foot, -1.0f);
+    const float squared = dot(off, off), level = fmaxf(sqrtf(off.x * off.x + off.z * off.z), 1e-6f);
+    for (int32_t p = 0; p < c->j->planes.count; ++p) {
+        c->cosine[p] = 0.0;
+        for (int32_t i = c->first[p]; i < c->first[p + 1]; ++i) {
+            const lmb_vec3 to = plus(at, c->all[i].at, -1.0f);
+            const float d2 = fmaxf(dot(to, to), 1e-4f), d = sqrtf(d2), cosine = dot(to, c->all[i].normal) / d;
+            c->lit[i] = c->seen[i] * fmaxf(cosine, 0.0f) * squared / d2;
+            if (is_window) {
+                c->lit[i] *= fmaxf((to.x * off.x + to.z * off.z) / (level * d), 0.0f);
+            }
+            c->cosine[p] += (double)cosine / (c->first[p + 1] - c->first[p]);
+        }
+    }
+}
+
+static lamp lamp_at(cast *c, lmb_vec3 at, float radius, lmb_vec3 foot)
+{
+    const int32_t rays = radius > 0.0f ? RAYS : 1;
+    lamp out = {at, radius, 0.0, 0.0, 0.0};
+    clear_seen(c);
+    for (int32_t i = 0; i < rays; ++i) {
+        const float y = 1.0f - (2.0f * (float)i + 1.0f) / (float)rays, flat = sqrtf(1.0f - y * y),
+                    turn = 2.3999632f * (float)i;
+        add_seen_point(c, plus(at, (lmb_vec3){flat * cosf(turn), y, flat * sinf(turn)}, radius), 1.0f / (float)rays);
+    }
+    for (int is_window = 0; is_window < 2; ++is_window) {
+        double share = 0.0;
+        set_lit(c, at, foot, is_window);
+        const double by = explain_falloff(c, &share) / c->uneven;
+        if (by > out.by) {
+            out.by = by;
+            out.share = share;
+        }
+    }
+    double stops;
+    out.by_shadows = explain_shadows(c, &stops) / c->total;
+    out.by += out.by_shadows;
+    return out;
+}
+
+/* Replaces the best lamp if this one explains more. */
+static void try_lamp(lamp *best, cast *c, lmb_vec3 at, float radius, lmb_vec3 foot)
 {
     const lmb_vec3 to = plus(at, foot, -1.0f);
-    const float distance = sqrtf(dot(to, to));
-    if (!(to.y > LOWEST * distance)) {
-        return;
-    }
-    double share = 0.0;
-    set_lamp(c, at, distance);
-    const double by = fits(c, &share);
-    if (by > *best) {
-        *best = by;
-        *best_at = at;
-        *out = (mix_lamp){unit(to), (float)share, (float)fits_even(c)};
+    if (to.y > LOWEST * sqrtf(dot(to, to))) {
+        const lamp one = lamp_at(c, at, radius, foot);
+        *best = one.by > best->by ? one : *best;
     }
 }
 
-static void find_lamp(mix_lamp *out, cast *c, lmb_vec3 foot)
+/* Moves the lamp by decreasing steps as long as it explains more. */
+static void refine_lamp(lamp *best, cast *c, lmb_vec3 foot)
 {
-    static const float far[] = {0.7f, 1.0f, 1.4f, 2.0f, 2.8f, 4.0f};
     static const float off[6][3] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-    lmb_vec3 at = foot;
-    double best = 0.0;
-    for (int32_t p = 0; p < c->j->planes.count; ++p) {
-        c->even[p] = misfit(c, p, 0.0);
-    }
-    for (int32_t i = 0; i < WAYS; i += 3) {
-        for (size_t k = 0; k < sizeof far / sizeof *far; ++k) {
-            try_lamp(out, &best, &at, c, plus(foot, way(i), far[k]), foot);
+    for (float step = 0.3f; step > 0.04f; step *= 0.5f) {
+        for (int i = 0; i < 12; ++i) {
+            const lmb_vec3 by = {off[i % 6][0], off[i % 6][1], off[i % 6][2]};
+            try_lamp(best, c, plus(best->at, by, step), best->radius, foot);
         }
     }
-    for (float step = 0.3f; step > 0.04f && best > 0.0; step *= 0.5f) {
-        const lmb_vec3 from = at;
-        for (int32_t i = 0; i < 6; ++i) {
-            try_lamp(out, &best, &at, c, plus(from, (lmb_vec3){off[i][0], off[i][1], off[i][2]}, step), foot);
+}
+
+/* Refines the best lamp of each distance, because neighbouring distances explain nearly as much. */
+static void find_lamp(mix_cast *out, cast *c, lmb_vec3 foot)
+{
+    static const float far[] = {0.7f, 1.0f, 1.4f, 2.0f, 2.8f, 4.0f}, radii[] = {0.1f, 0.2f, 0.35f, 0.6f, 0.9f};
+    lamp best = {foot, 0.0f, 0.0, 0.0, 0.0};
+    for (size_t k = 0; k < sizeof far / sizeof *far; ++k) {
+        lamp here = {foot, 0.0f, 0.0, 0.0, 0.0};
+        for (int32_t i = 0; i < WAYS; i += 2) {
+            try_lamp(&here, c, plus(foot, way(i), far[k]), 0.0f, foot);
         }
+        if (here.by > 0.0) {
+            refine_lamp(&here, c, foot);
+        }
+        best = here.by > best.by ? here : best;
     }
+    for (int pass = 0; pass < 2 && best.by > 0.0; ++pass) {
+        for (size_t i = 0; i < sizeof radii / sizeof *radii; ++i) {
+            try_lamp(&best, c, best.at, radii[i], foot);
+        }
+        refine_lamp(&best, c, foot);
+    }
+    const lmb_vec3 to = plus(best.at, foot, -1.0f);
+    out->to = unit(to);
+    out->size = best.radius > 0.0f ? fminf(360.0f / PI * atanf(best.radius / sqrtf(dot(to, to))), WIDEST) : NARROWEST;
+    out->share = (float)best.share;
+    out->by_shadows = (float)best.by_shadows;
+    out->explained = (float)best.by;
+    out->is_near = 1;
 }
 
 /* --- the search --------------------------------------------------------------------------------------------------- */
@@ -470,7 +530,7 @@ static void take_open(cast *c, lmb_vec3 to)
     }
     explain(c, to, 0.0f, &stops, 0);
     for (int32_t i = 0; i < c->first[c->j->planes.count]; ++i) {
-        const double o = (double)c->open[i], v = (double)c->lit[i], y = (double)c->all[i].light;
+        const double o = (double)c->open[i], v = (double)c->seen[i], y = (double)c->all[i].light;
         oo += o * o;
         vv += v * v;
         ov += o * v;
@@ -521,7 +581,11 @@ static void measure(mix_cast *out, cast *c)
             out->size = sizes[i];
         }
     }
-    out->explained = c->total > 0.0 && stops < DARKER ? (float)(best / c->total) : 0.0f;
+    see_sun(c, out->to, out->size);
+    memcpy(c->lit, c->seen, (size_t)c->first[c->j->planes.count] * sizeof *c->lit);
+    double share;
+    out->by_shadows = stops < DARKER ? (float)(best / c->total) : 0.0f;
+    out->explained = out->by_shadows + (float)(explain_falloff(c, &share) / c->uneven);
     out->share = (float)(exp2(fmin(fmax(stops, 0.0), DARKER)) - 1.0);
 }
 
@@ -536,27 +600,32 @@ static int build_bvh(cast *c)
            lmb_bvh_build(&c->bvh, &real) == LMB_OK;
 }
 
-int mix_find_cast(mix_cast *sun, mix_lamp *lamp, const mix_job *j, lmb_vec3 foot)
+int mix_find_cast(mix_cast *out, const mix_job *j, lmb_vec3 foot)
 {
     cast *c = calloc(1, sizeof *c);
     const int32_t step = step_of(j);
     const size_t cap = (size_t)(j->frame.camera.width / step + 1) * (size_t)(j->frame.camera.height / step + 1);
     int ok = c != NULL;
-    memset(sun, 0, sizeof *sun);
-    memset(lamp, 0, sizeof *lamp);
-    sun->to = lamp->to = (lmb_vec3){0, 1, 0};
+    memset(out, 0, sizeof *out);
+    out->to = (lmb_vec3){0, 1, 0};
     if (ok && j->real_triangles > 0) {
         c->j = j;
         c->all = malloc(cap * sizeof *c->all);
+        c->seen = malloc(cap * sizeof *c->seen);
         c->lit = malloc(cap * sizeof *c->lit);
         c->open = calloc(cap, sizeof *c->open);
-        ok = c->all != NULL && c->lit != NULL && c->open != NULL && build_bvh(c);
+        ok = c->all != NULL && c->seen != NULL && c->lit != NULL && c->open != NULL && build_bvh(c);
         if (ok) {
+            mix_cast near = *out;
             find_places(c);
-            measure(sun, c);
-            find_lamp(lamp, c, foot);
+            if (c->total > 0.0) {
+                measure(out, c);
+                find_lamp(&near, c, foot);
+                *out = near.explained > NEARER + out->explained ? near : *out;
+            }
         }
         free(c->all);
+        free(c->seen);
         free(c->lit);
         free(c->open);
         free(c->memory);

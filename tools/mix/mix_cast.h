@@ -5,22 +5,19 @@
 #include "mix_job.h"
 
 typedef struct mix_cast {
-    lmb_vec3 to;      /* unit, towards the sun, in scene space */
+    lmb_vec3 to;      /* unit, towards the light, in scene space */
     float size;       /* degrees */
-    float share;      /* irradiance on a surface that faces the sun, relative to the environment's */
-    float explained;  /* share of the brightness variance on the planes that the sun's shadows explain */
+    float share;      /* irradiance on a surface that faces the light, relative to the environment's */
+    float by_shadows; /* share of the brightness variance on the planes that the shadows explain, without smooth
+                         variation, 0 .. 1; negative: dark places are lit */
+    float explained;  /* the same plus the share of all variance that shadows and falloff explain, up to 2 */
+    int is_near;      /* 1: a near light or a window, and `to` is at the foot; 0: a sun */
 } mix_cast;
-
-/* A lamp, found by its falloff: how brightness decreases over each plane, and its shadows. */
-typedef struct mix_lamp {
-    lmb_vec3 to;      /* unit, from the foot towards it */
-    float share;      /* as above, at the foot */
-    float explained;  /* share of all brightness variance on the planes */
-} mix_lamp;
 
 /* mix_find_cast: searches the upper hemisphere for the sun that best explains dark places on the planes by shadows of
  * the measured geometry; softness of the shadows gives the size of the sun. Then searches the places up to 4 m around
- * `foot`, in scene space, for a near light. Returns 1, or 0 if memory is short. */
-int mix_find_cast(mix_cast *sun, mix_lamp *lamp, const mix_job *j, lmb_vec3 foot);
+ * `foot`, in scene space, for a near light or a window that explains more: shadows, and brightness that decreases with
+ * the distance. Returns 1, or 0 if memory is short. */
+int mix_find_cast(mix_cast *out, const mix_job *j, lmb_vec3 foot);
 
 #endif

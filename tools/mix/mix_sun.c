@@ -134,16 +134,17 @@ static float brighter(const mix_job *j, lmb_vec3 from, float sun)
 }
 
 /* The share of brightness variance that a sun's shadows must explain: from UNSURE on the sun counts, from SURE on in
- * full; likewise for a near light, of the variance before the smooth variation is removed. An uncertain sun is WIDE,
- * degrees, and has WEAK times the environment's irradiance. */
+ * full; likewise for a near light, with what falloff explains added, or by falloff, if no shadow is in view. An
+ * uncertain sun is WIDE, degrees, and has WEAK times the environment's irradiance. */
 #define UNSURE      0.2f
 #define SURE        0.3f
-#define LAMP_UNSURE 0.3f
-#define LAMP_SURE   0.5f
-#define LAMP_SIZE   8.0f /* degrees */
+#define LAMP_UNSURE 0.9f
+#define LAMP_SURE   1.1f
+#define FALLOFF_UNSURE 0.75f
+#define FALLOFF_SURE   0.9f
 #define WIDE        80.0f
 #define WEAK        0.35f
-#define SHARE_MAX   4.0f
+#define SHARE_MAX   3.0f
 #define FACES       0.17f /* minimum cosine to the surface under the object */
 
 /* If nothing shows the light, about half of it comes from lamps outside the picture, and their shadows are unknown. So
@@ -153,7 +154,7 @@ static float brighter(const mix_job *j, lmb_vec3 from, float sun)
 typedef struct guess {
     lmb_vec3 from;
     float share, size, sure;
-    int is_lamp;
+    int is_near;
 } guess;
 
 static float ramp(float x, float low, float high) { return fminf(fmaxf((x - low) / (high - low), 0.0f), 1.0f); }
@@ -161,24 +162,20 @@ static float ramp(float x, float low, float high) { return fminf(fmaxf((x - low)
 /* Returns 0 if memory is short. */
 static int guess_of(guess *out, const mix_job *j, lmb_vec3 faces)
 {
-    mix_cast sun;
-    mix_lamp lamp;
-    if (!mix_find_cast(&sun, &lamp, j, lmb_axes_turn(&j->axes, foot_of(j)))) {
+    mix_cast light;
+    if (!mix_find_cast(&light, j, lmb_axes_turn(&j->axes, foot_of(j)))) {
         return 0;
     }
-    const float by_sun = along(sun.to, faces) > FACES ? ramp(sun.explained, UNSURE, SURE) : 0.0f,
-                by_lamp = along(lamp.to, faces) > FACES ? ramp(lamp.explained, LAMP_UNSURE, LAMP_SURE) : 0.0f;
     memset(out, 0, sizeof *out);
-    out->is_lamp = by_sun < 1.0f && by_lamp > 0.0f;
-    out->sure = out->is_lamp ? by_lamp : by_sun;
-    if (out->sure > 0.0f) {
-        out->from = out->is_lamp ? lamp.to : sun.to;
-        out->size = out->is_lamp ? LAMP_SIZE : sun.size;
-    } else {
-        out->from = overhead(j);
-        out->size = WIDE;
+    out->is_near = light.is_near;
+    if (along(light.to, faces) > FACES) {
+        out->sure = light.is_near ? fmaxf(ramp(light.explained, LAMP_UNSURE, LAMP_SURE),
+                                          ramp(light.explained - light.by_shadows, FALLOFF_UNSURE, FALLOFF_SURE))
+                                  : ramp(light.by_shadows, UNSURE, SURE);
     }
-    out->share = fmaxf(out->sure * fminf(out->is_lamp ? lamp.share : sun.share, SHARE_MAX), WEAK);
+    out->from = out->sure > 0.0f ? light.to : overhead(j);
+    out->size = out->sure > 0.0f ? light.size : WIDE;
+    out->share = fmaxf(out->sure * fminf(light.share, SHARE_MAX), WEAK);
     return 1;
 }
 
@@ -226,7 +223,7 @@ float mix_guess_sun(lmb_light *out, float *softens, const mix_job *j)
     report_note(j->o.is_quiet,
                 "no light given: %s, %.2f as strong as the surroundings; --light sun:0,0,0:%.3f,%.3f,%.3f:%.3f,%.3f,"
                 "%.3f:%.0f",
-                g.is_lamp       ? "took a near light from how the photo's light falls off"
+                g.sure > 0.0f && g.is_near ? "took a near light from the photo's shadows and falloff"
                 : g.sure > 0.0f ? "took a sun from the photo's shadows"
                                 : "nothing shows where light comes from, so took a weak one from above",
                 (double)g.share, (double)way.x, (double)way.y, (double)way.z, (double)out->intensity[0],
