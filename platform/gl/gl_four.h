@@ -45,13 +45,13 @@ static inline void four_save_codes(uint8_t (*out)[4], four_bits codes, int count
     memcpy(code, &codes, sizeof code);
 #if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
     memcpy(out, code, 4 * (size_t)count);
-    return;
-#endif
+#else
     for (int i = 0; i < count; ++i) {
         for (int n = 0; n < 4; ++n) {
             out[i][n] = (uint8_t)(code[i] >> 8 * n);
         }
     }
+#endif
 }
 
 /* 1: all comparisons are true. */

@@ -189,7 +189,7 @@ LANE_INLINE void draw_find_corners(lanei out[4], const lmb_texture *t, lanei x, 
     out[3] = lanei_gather_rgba(t->texels, lanei_add(lower, right));
 }
 
-/* Between the texels of pixels `bits`; of others, any. */
+/* Between the texels of pixels `bits`, at least one; of others, any. */
 LANE_PART lanei draw_between_texels(const lmb_texture *t, lanei x, lanei y, uint32_t bits)
 {
     lanei corner[4];
@@ -458,7 +458,7 @@ LANE_INLINE draw_axis draw_axis_of(const lmb_draw_patch *p, int i, int32_t texel
     return a;
 }
 
-/* The coordinate within a period, in steps of a texel. If it is not negative, it needs no floor. */
+/* The coordinate within a period, in steps of a texel. A coordinate that is not negative needs no floor. */
 LANE_INLINE lanei draw_place(const draw_axis *a, const draw_share *s)
 {
     const lane more = lane_add(lane_mul(s->b1, lane_splat(a->more1)), lane_mul(s->b2, lane_splat(a->more2))),
@@ -467,14 +467,14 @@ LANE_INLINE lanei draw_place(const draw_axis *a, const draw_share *s)
     return lane_to_int(lane_mul(part, lane_splat(a->size)));
 }
 
-/* The same as the index of a texel. What is left of `up` coordinates is below 1. */
+/* The same as the index of a texel. The rest of `up` coordinates is below 1. */
 LANE_INLINE lanei draw_nearest(const draw_axis *a, const draw_share *s)
 {
     const lanei i = draw_place(a, s);
     return a->up ? i : draw_wrap(i, a->texels, a->wrap);
 }
 
-/* What the pixels of a shape share. */
+/* Values that the pixels of a shape share. */
 typedef struct draw_brush {
     const lmb_texture *texture;
     lanei same; /* the colour, if it does not vary */
@@ -516,7 +516,7 @@ LANE_INLINE draw_axes draw_axes_of(const draw_brush *b, const lmb_draw_patch *p)
     return a;
 }
 
-/* What pixels need before they are blended. Bilinear: x and y in 1/256 texels; nearest: x is the texel's index. */
+/* Values of pixels before they are blended. Bilinear: x and y in 1/256 texels; nearest: x is the texel's index. */
 typedef struct draw_found {
     lanei x, y, colour; /* unused ones hold the shape's colour */
 } draw_found;
@@ -719,7 +719,7 @@ LANE_INLINE draw_share sheet_share(const sheet_shares *t, const lmb_draw_patch *
     return draw_hold_share(s);
 }
 
-/* What the parts of a column need. Processors overlap more of two loops of short steps than of one of long steps. */
+/* Values of the parts of a column. Processors overlap more of two loops of short steps than of one of long steps. */
 typedef struct sheet_parts {
     int32_t x[SHEET_PARTS][LANES], y[SHEET_PARTS][LANES], colour[SHEET_PARTS][LANES];
     uint32_t drawn[SHEET_PARTS], first[SHEET_PARTS]; /* bits of pixels inside the sheet, and of those of half 0 */

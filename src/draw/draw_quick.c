@@ -336,7 +336,7 @@ static int quick_draw(const lmb_draw_pass *pass, const draw_vertex *a, const dra
 MESH_HINT void quick_ask_pixels(const lmb_draw_pass *pass, const draw_vertex *at)
 {
     const lmb_draw_target *t = pass->target;
-    if (at->out != 0) { /* it has no place */
+    if (at->out != 0) { /* a corner outside the guard band has no place */
         return;
     }
     const int32_t x = (at->x + pass->middle_x) >> 8, y = (at->y + pass->middle_y) >> 8;

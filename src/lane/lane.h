@@ -54,7 +54,7 @@ static inline lanei lanei_affine(int32_t at, int32_t per_x, int32_t per_y, int k
     return lanei_add(r, lanei_splat(at + per_y * (k / LMB_TILE)));
 }
 
-/* What lane_trunc cuts off values >= 0. Backends may override this. */
+/* The part that lane_trunc cuts off values >= 0. Backends may override this. */
 #ifndef LANE_HAS_PART
 static inline lane lane_part(lane a) { return lane_sub(a, lane_trunc(a)); }
 #endif

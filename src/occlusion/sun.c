@@ -22,7 +22,7 @@ typedef struct sun_traversal {
     float noise;   /* m: possible distance of pixels from their surfaces by rounding */
     uint64_t left;    /* pixels not blocked so far */
     uint32_t blocker; /* the last triangle that blocked a pixel, + 1 */
-    lmb_vec3 low, high; /* box of the pixels of the current sweep, from `at` */
+    lmb_vec3 low, high; /* box of the pixels of the current sweep, from `at`; set by sweep_of */
 } sun_traversal;
 
 /* 2^-22 of the coordinates and 2^-20 of the length of the ray that found them. */
@@ -106,7 +106,7 @@ static int is_within_job(const lmb_sun_job *job, lmb_vec3 d)
            dot3(job->edge[2], d) + job->offset[2] >= 0.0f;
 }
 
-/* 1 if a triangle blocks this one pixel. Bit by bit the result of `sun_crossed`, with the cheapest test first. */
+/* 1 if a triangle blocks this one pixel: as `sun_crossed` for unit directions, with the cheapest test first. */
 static int sun_blocks_one(const sun_traversal *w, const lmb_bvh_triangle *t, uint64_t pixel)
 {
     const lmb_vec3 d = sub3(tile_vec(w->tile->position, lowest_bit_64(pixel)), w->at);

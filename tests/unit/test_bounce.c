@@ -1387,11 +1387,12 @@ static void check_near(void)
     double worst = 0.0;
     int quads = 0;
     float alone = 0.0f;
-    for (int round = 0; round < 20; ++round) {
+    for (int round = 0; round < 400; ++round) {
         random_tile(&rng);
-        plate_points(test_uniform(&rng, 0.02f, 0.5f));
+        plate_points(test_uniform(&rng, 0.04f, 0.5f)); /* lower ones are lit from a height (FLAT_PART) */
         for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-            set_plane(tile.position, k, vec3(test_uniform(&rng, -0.5f, 0.5f), 0, test_uniform(&rng, -0.5f, 0.5f)));
+            const float x = test_uniform(&rng, -0.5f, 0.5f), z = test_uniform(&rng, -0.5f, 0.5f);
+            set_plane(tile.position, k, vec3(x, 0, z));
         }
         gather(&got, &points, NULL);
         gather(&without, NULL, NULL);

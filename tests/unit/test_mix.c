@@ -24,7 +24,9 @@ static char square[] = "tests/fuzz/corpus/obj/quads.obj"; /* upright, one unit w
 static mix_job *begin(char *const *more, int count)
 {
     char *argv[24] = {"mix", "--frame", "known", "--voxels", "4", "--shadow-map", "64", "-o", "known.pfm"};
-    memcpy(argv + 9, more, (size_t)count * sizeof *more);
+    for (int i = 0; i < count; ++i) {
+        argv[9 + i] = more[i];
+    }
     mix_job *j = photo_job(9 + count, argv, &camera);
     for (int i = 0; i < 3 * PIXELS; ++i) {
         j->frame.light.pixels[i] = GREY;

@@ -1,6 +1,6 @@
 /* fours.c: lit vertices against the formula of OpenGL 1.x in binary64, within a code: highlights of any shininess,
- * normals to all sides, light over 1. A triangle a pixel. Normals are lit by fours (gl_four.h), and their count is no
- * multiple of four. */
+ * normals to all sides, light over 1. Each pixel is one triangle. Normals are lit by fours (gl_four.h), and their count
+ * is no multiple of four. */
 #include <GL/osmesa.h>
 #include <math.h>
 #include <stdio.h>
@@ -8,7 +8,7 @@
 enum { WIDE = 63, HIGH = 24 };
 static unsigned char pixels[HIGH][WIDE][4];
 
-/* What row `y` has. */
+/* The shininess of row `y`, and the way to the row's light. */
 static float shininess_of(int y) { static const float all[6] = {0, 1, 7.5f, 30, 90, 128}; return all[y % 6]; }
 static const float *way_of(int y)
 {
@@ -31,7 +31,8 @@ static int code_of(int x, int y, int c)
     const float *to = way_of(y);
     float n[3];
     normal_of(n, x, y);
-    const double half[3] = {to[0], to[1], to[2] + 1.0}, length = sqrt(half[0] * half[0] + half[1] * half[1] + half[2] * half[2]);
+    const double half[3] = {to[0], to[1], to[2] + 1.0},
+                 length = sqrt(half[0] * half[0] + half[1] * half[1] + half[2] * half[2]);
     const double facing = (double)n[0] * to[0] + (double)n[1] * to[1] + (double)n[2] * to[2];
     const double cosine = (n[0] * half[0] + n[1] * half[1] + n[2] * half[2]) / length;
     double v = 0;
@@ -70,7 +71,7 @@ static void draw(void)
             glVertex2f((float)x + 0.1f, (float)y + 1.3f);
         }
         glEnd();
-        glFinish(); /* what waits when the material changes is lit one by one */
+        glFinish(); /* vertices that wait when the material changes are lit one by one */
     }
 }
 
