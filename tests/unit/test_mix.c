@@ -508,7 +508,7 @@ static void near_light_is_by_both(void)
                 j->frame.light.pixels[3 * k + c] = 0.4f * light;
             }
         }
-        CHECK_MSG(place(j) && mix_light(j, &r), "%s", r.text);
+        CHECK_MSG(mix_light(j, &r), "%s", r.text);
         const float size = mix_guess_sun(&sun, &softens, j), x = p[0] - j->anchor.x, y = p[1] - j->anchor.y, z = p[2] - j->anchor.z;
         const float cosine = -(sun.direction.x * x + sun.direction.y * y + sun.direction.z * z) / sqrtf(x * x + y * y + z * z);
         CHECK_MSG(cosine > 0.985f && size < 30.0f && softens < 0.1f, "%d: cosine %g, %g wide, %g", i, (double)cosine,
