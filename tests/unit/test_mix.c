@@ -446,6 +446,26 @@ static void sun_is_by_shadows(void)
     }
 }
 
+/* The light of a lamp at p and of an even light, with or without the block's shadow. pane: the lamp is a window that
+ * faces this place. */
+static void set_lamp(mix_job *j, const float p[3], float even, int has_block, const lmb_vec3 *pane)
+{
+    for (int k = 0; k < PIXELS; ++k) {
+        const lmb_vec3 ray = lmb_cloud_ray(&camera, (float)(k % WIDTH), (float)(k / WIDTH));
+        const float z = j->frame.depth[k];
+        const lmb_vec3 at = {ray.x * z, ray.y * z, ray.z * z}, to = {p[0] - at.x, p[1] - at.y, p[2] - at.z};
+        const float d = sqrtf(to.x * to.x + to.y * to.y + to.z * to.z), up = z < 2.5f ? to.y : to.z;
+        float sent = has_block && block_at(at, to) < 1.0f ? 0.0f : fmaxf(up, 0.0f) / (d * d * d);
+        if (pane != NULL) {
+            const float x = p[0] - pane->x, y = p[2] - pane->z;
+            sent *= fmaxf((to.x * x + to.z * y) / (sqrtf(x * x + y * y) * d), 0.0f);
+        }
+        for (int c = 0; c < 3; ++c) {
+            j->frame.light.pixels[3 * k + c] = 0.4f * (even + sent);
+        }
+    }
+}
+
 /* A lamp outside the picture: floor and wall get darker with the distance from it, and no shadow is in view. The guess
  * was overhead, 30 to 60 degrees off. If only half of the floor is dark, it may be painted so: the guess must be weak and
  * overhead, and the object darkens half as much. */
@@ -460,14 +480,9 @@ static void lamp_is_by_falloff(void)
         lmb_light sun;
         float softens = -1.0f;
         set_depth(j, 2.5f, 1);
-        for (int k = 0; k < PIXELS; ++k) {
-            const lmb_vec3 ray = lmb_cloud_ray(&camera, (float)(k % WIDTH), (float)(k / WIDTH));
-            const float z = j->frame.depth[k], x = p[0] - ray.x * z, y = p[1] - ray.y * z, d = p[2] - ray.z * z,
-                        length = sqrtf(x * x + y * y + d * d), up = z < 2.5f ? y : d;
-            const float light = i == 3 ? (z < 2.5f && k % WIDTH < WIDTH / 2 ? 0.3f : 0.6f) : 0.1f + fmaxf(up, 0.0f) / (length * length * length);
-            for (int c = 0; c < 3; ++c) {
-                j->frame.light.pixels[3 * k + c] = 0.4f * light;
-            }
+        set_lamp(j, p, 0.1f, 0, NULL);
+        for (int k = 0; k < 3 * PIXELS && i == 3; ++k) {
+            j->frame.light.pixels[k] = j->frame.depth[k / 3] < 2.5f && k / 3 % WIDTH < WIDTH / 2 ? 0.12f : 0.24f;
         }
         CHECK_MSG(place(j) && mix_light(j, &r), "%s", r.text);
         const float size = mix_guess_sun(&sun, &softens, j);
@@ -496,18 +511,7 @@ static void near_light_is_by_both(void)
         float softens = -1.0f;
         set_block(j, (lmb_vec3){0, 1, 0}, 1.0f);
         CHECK(place(j));
-        const float off[2] = {p[0] - j->anchor.x, p[2] - j->anchor.z}, level = sqrtf(off[0] * off[0] + off[1] * off[1]);
-        for (int k = 0; k < PIXELS; ++k) {
-            const lmb_vec3 ray = lmb_cloud_ray(&camera, (float)(k % WIDTH), (float)(k / WIDTH));
-            const float z = j->frame.depth[k];
-            const lmb_vec3 at = {ray.x * z, ray.y * z, ray.z * z}, to = {p[0] - at.x, p[1] - at.y, p[2] - at.z};
-            const float d = sqrtf(to.x * to.x + to.y * to.y + to.z * to.z), up = z < 2.5f ? to.y : to.z,
-                        pane = i % 2 != 0 ? fmaxf((to.x * off[0] + to.z * off[1]) / (level * d), 0.0f) : 1.0f;
-            const float light = 0.15f + (block_at(at, to) < 1.0f ? 0.0f : pane * fmaxf(up, 0.0f) / (d * d * d));
-            for (int c = 0; c < 3; ++c) {
-                j->frame.light.pixels[3 * k + c] = 0.4f * light;
-            }
-        }
+        set_lamp(j, p, 0.15f, 1, i % 2 != 0 ? &j->anchor : NULL);
         CHECK_MSG(mix_light(j, &r), "%s", r.text);
         const float size = mix_guess_sun(&sun, &softens, j), x = p[0] - j->anchor.x, y = p[1] - j->anchor.y, z = p[2] - j->anchor.z;
         const float cosine = -(sun.direction.x * x + sun.direction.y * y + sun.direction.z * z) / sqrtf(x * x + y * y + z * z);

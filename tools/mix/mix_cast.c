@@ -24,7 +24,7 @@ enum { COLUMNS = 80 /* of places, about */, WAYS = 240, TURNS = 8, RAYS = 16, TE
 #define NEARER  0.3f  /* a near light must explain so much more than a sun, as it has more unknowns */
 #define BRIGHT  3.0f /* limit of a place's light, relative to the plane's mean */
 #define NARROWEST 1.0f /* degrees */
-#define WIDEST  50.0f
+#define WIDEST    50.0f
 #define STOPS   1.5f   /* limit of a place's deviation: pictures on a wall are not shadows */
 
 /* A place on a plane: the deviation of the light from the plane's other places, in stops, with smooth variation
@@ -232,7 +232,7 @@ static void find_places(cast *c)
     c->first[c->j->planes.count] = n;
 }
 
-/* --- the light of a candidate --------------------------------------------------------------------------------- */
+/* --- the light of a candidate ------------------------------------------------------------------------------------- */
 
 /* Sets the positions of up to 64 places from i on. Returns their number. */
 static int32_t set_tile(lmb_tile *out, const cast *c, int32_t i)
