@@ -64,8 +64,9 @@ HOST_SRC := $(addprefix platform/host/,host.c pool.c process.c programs.c count.
 # lambent-bench: the verbs' measurements and hard cases, which users of the tool do not need.
 BENCH_SRC := $(sort $(wildcard tools/bench/*.c tools/hard/*.c))
 TOOL_SRC := $(sort $(filter-out $(wildcard tools/*/gen_*.c tools/*/main_*.c) $(BENCH_SRC),$(wildcard tools/*/*.c))) $(HOST_SRC)
-# Unit tests that take over a second each; `make check` leaves them out.
-SLOW_TESTS := bounce cut frame_init frames glossy gltf live_frames mix mix_cones mix_front mix_sources mix_stays multisample \
+# Unit tests that take over a second each, and that of lambent-bench, which takes seconds to compile; `make check` leaves
+# them out.
+SLOW_TESTS := bench bounce cut frame_init frames glossy gltf live_frames mix mix_cones mix_front mix_sources mix_stays multisample \
               occlusion relief_light relief_ornate room_edges sky transfer tree zeros
 TEST_SRC := $(sort $(wildcard $(foreach d,unit analytic truth lanes,tests/$(d)/test_*.c)))
 
@@ -75,20 +76,24 @@ SCENES_SRC := $(filter-out tests/scenes/main_%,$(sort $(wildcard tests/scenes/*.
 UNIT_SRC   := $(filter-out src/isa/%,$(LIB_SRC))
 LIB_OBJ    := $(if $(ONE_UNIT),$(B)/obj/src/one_unit.o,$(call object,$(UNIT_SRC))) $(call object,$(filter src/isa/%,$(LIB_SRC)))
 TOOL_OBJ   := $(call object,$(TOOL_SRC))
-# The objects of both programs without their main functions.
-TOOLS_OBJ  := $(filter-out %/lambent.o,$(TOOL_OBJ)) $(call object,$(BENCH_SRC))
+# The objects of the tool and of both programs, without their main functions.
+VERBS_OBJ  := $(filter-out %/lambent.o,$(TOOL_OBJ))
+TOOLS_OBJ  := $(VERBS_OBJ) $(call object,$(BENCH_SRC))
 BENCH_OBJ  := $(call object,tools/cli/main_bench.c) $(TOOLS_OBJ)
 TEST_OBJ   := $(call object,tests/unit/main.c $(TEST_SRC) $(SCENES_SRC) tests/truth/path.c) $(TOOLS_OBJ)
+# The same program without the slow tests and lambent-bench: half of the code that `make check` would compile.
+QUICK_SRC  := $(filter-out $(SLOW_TESTS:%=tests/unit/test_%.c),$(TEST_SRC))
+QUICK_OBJ  := $(B)/obj/tests/unit/main_quick.o $(call object,$(QUICK_SRC) $(SCENES_SRC) tests/truth/path.c) $(VERBS_OBJ)
 GOLDEN_SRC := $(filter-out tests/golden/main_%,$(sort $(wildcard tests/golden/*.c)))
 GOLDEN_OBJ := $(call object,$(GOLDEN_SRC) tests/golden/main_golden.c tools/demo/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
 ORDERS_OBJ := $(call object,$(GOLDEN_SRC) tests/golden/main_orders.c tools/demo/demo_scene.c tools/common/workers.c \
               tools/common/slice_items.c platform/host/host.c platform/host/pool.c) $(LIB_OBJ)
 FUZZ_SRC   := $(filter-out tests/fuzz/main_%,$(wildcard tests/fuzz/*.c))
-REPLAY_OBJ := $(call object,tests/fuzz/main_replay.c $(FUZZ_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
-HOSTILE_OBJ := $(call object,tests/fuzz/main_hostile.c $(FUZZ_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
+REPLAY_OBJ := $(call object,tests/fuzz/main_replay.c $(FUZZ_SRC)) $(VERBS_OBJ)
+HOSTILE_OBJ := $(call object,tests/fuzz/main_hostile.c $(FUZZ_SRC)) $(VERBS_OBJ)
 AUDITED    := $(call object,tests/audit/isa_audit.c) $(filter-out %/isa_pick.o,$(LIB_OBJ))
-DECODE_OBJ := $(call object,tests/decodes/main_decodes.c) $(filter-out %/lambent.o,$(TOOL_OBJ))
-REFERENCE_OBJ := $(call object,$(sort $(wildcard tests/reference/*.c))) $(TOOLS_OBJ)
+DECODE_OBJ := $(call object,tests/decodes/main_decodes.c) $(VERBS_OBJ)
+REFERENCE_OBJ := $(call object,$(sort $(wildcard tests/reference/*.c)) tools/bench/bench_scene.c) $(VERBS_OBJ)
 GOLDEN_ONE_OBJ := $(call object,$(GOLDEN_SRC) tests/golden/main_one.c tools/demo/demo_scene.c) $(LIB_OBJ)
 HARD_OBJ   := $(call object,$(sort $(wildcard tests/hard/*.c))) $(TOOLS_OBJ)
 SCENES_OBJ := $(call object,tests/scenes/main_scenes.c $(SCENES_SRC))
@@ -132,7 +137,7 @@ PAGE_OBJ   := $(call object,tests/web/main_page.c platform/web/page/page_scene.c
               $(filter-out %/lambent.o %/verb_relief_bake.o,$(TOOL_OBJ))
 STATUE_OBJ := $(call object,platform/cortex-m/main_statue.c $(PORT_SRC)) $(LIB_OBJ)
 
-PROGRAMS := tests golden golden-one golden-orders reference hard replay hostile audit-golden audit-replay
+PROGRAMS := tests quick-tests golden golden-one golden-orders reference hard replay hostile audit-golden audit-replay
 
 LIB  := $(B)/liblambent.a
 TOOL := $(if $(filter default,$(CONFIG)),$(BUILD),$(B))/lambent
@@ -233,6 +238,7 @@ $(LIB): $(LIB_OBJ)
 $(TOOL): $(TOOL_OBJ) $(LIB)
 $(BENCH): $(BENCH_OBJ) $(LIB)
 $(B)/tests: $(TEST_OBJ) $(LIB)
+$(B)/quick-tests: $(QUICK_OBJ) $(LIB)
 $(B)/golden: $(GOLDEN_OBJ)
 $(B)/demo-picture: $(PICTURE_OBJ)
 $(B)/golden-one: $(GOLDEN_ONE_OBJ)
@@ -307,12 +313,16 @@ $(B)/obj/tools/cli/verb_doctor.o: COMPILE += -I$(B)
 # The table of tests. A test is a function `void test_NAME(void)` in tests/GROUP/test_NAME.c; there is no list to edit.
 group_of    = $(if $(filter $(SLOW_TESTS),$(name_of)),slow,$(word 2,$(subst /, ,$(1))))
 name_of     = $(patsubst test_%.c,%,$(notdir $(1)))
-TEST_LINES := $(foreach f,$(TEST_SRC),'TEST($(call group_of,$(f)),$(call name_of,$(f)))')
-$(B)/tests.inc: FORCE
+lines_of    = $(foreach f,$(1),'TEST($(call group_of,$(f)),$(call name_of,$(f)))')
+$(B)/tests.inc: LINES := $(call lines_of,$(TEST_SRC))
+$(B)/quick_tests.inc: LINES := $(call lines_of,$(QUICK_SRC))
+$(B)/tests.inc $(B)/quick_tests.inc: FORCE
 	@mkdir -p $(@D)
-	@printf '%s\n' $(TEST_LINES) | cmp -s - $@ || printf '%s\n' $(TEST_LINES) > $@
+	@printf '%s\n' $(LINES) | cmp -s - $@ || printf '%s\n' $(LINES) > $@
 $(B)/obj/tests/unit/main.o: $(B)/tests.inc
 $(B)/obj/tests/unit/main.o: COMPILE += -I$(B)
+$(B)/obj/tests/unit/main_quick.o: tests/unit/main.c $(B)/quick_tests.inc $(B)/flags
+	@$(COMPILE) -I$(B) -DTEST_TABLE='"quick_tests.inc"' -c $< -o $@
 
 # -O1 compiles the unit tests in 60 % of the time of -O2, and they spend their own time in the library.
 $(B)/obj/tests/unit/%.o: COMPILE += -O1
@@ -366,7 +376,7 @@ $(B)/obj/platform/demo/main_pixel.o: COMPILE += -DPIXEL_FRAMES=$(or $(PIXEL_FRAM
 .PHONY: FORCE
 FORCE:
 
--include $(patsubst %.o,%.d,$(sort $(LIB_OBJ) $(TOOL_OBJ) $(BENCH_OBJ) $(TEST_OBJ) $(PICTURE_OBJ) $(GOLDEN_OBJ) $(GOLDEN_ONE_OBJ) $(ORDERS_OBJ) $(DEMO_OBJ) $(STATUE_OBJ) $(ROOM_OBJ) $(foreach f,$(LIVE),$(call live_of,$(f))) \
+-include $(patsubst %.o,%.d,$(sort $(LIB_OBJ) $(TOOL_OBJ) $(BENCH_OBJ) $(TEST_OBJ) $(QUICK_OBJ) $(PICTURE_OBJ) $(GOLDEN_OBJ) $(GOLDEN_ONE_OBJ) $(ORDERS_OBJ) $(DEMO_OBJ) $(STATUE_OBJ) $(ROOM_OBJ) $(foreach f,$(LIVE),$(call live_of,$(f))) \
     $(REPLAY_OBJ) $(HOSTILE_OBJ) $(PAGE_OBJ) \
     $(DECODE_OBJ) $(REFERENCE_OBJ) $(HARD_OBJ) $(SCENES_OBJ) $(PATH_OBJ) $(foreach f,$(MEASURES),$(call measure_of,$(f))) $(AUDITED)))
 
@@ -398,15 +408,17 @@ nightly: ## all jobs of .ci/jobs with all their parts; installs missing packages
 	@bash .ci/run nightly
 
 # Programs that checks run. All are built before the first check, so that no two checks build the same one.
-programs_unit := tests
-programs_unit-1 := tests
-programs_unit-2 := tests
-programs_analytic := tests
-programs_truth := tests
-programs_truth-small := tests
+# The checks' program of unit tests: without the slow ones, if no check needs these.
+UNIT_PROGRAM := $(if $(filter slow%,$(CHECKS)),tests,quick-tests)
+programs_unit := $(UNIT_PROGRAM)
+programs_unit-1 := $(UNIT_PROGRAM)
+programs_unit-2 := $(UNIT_PROGRAM)
+programs_analytic := $(UNIT_PROGRAM)
+programs_truth := $(UNIT_PROGRAM)
+programs_truth-small := $(UNIT_PROGRAM)
 programs_slow := tests
 $(foreach k,1 2 3 4 5 6,$(eval programs_slow-$(k) := tests))
-programs_lanes := tests
+programs_lanes := $(UNIT_PROGRAM)
 programs_golden := golden
 programs_golden-orders := golden-orders
 programs_audit := audit-golden audit-replay
@@ -414,7 +426,7 @@ programs_slivers := reference
 programs_hard := hard
 programs_replay := replay
 programs_hostile := hostile
-bench_of_checks = $(if $(filter cli layers faults docs-check,$(CHECKS)),$(BENCH))
+bench_of_checks = $(if $(filter cli faults docs-check,$(CHECKS)),$(BENCH))
 
 # All programs; those of tests/measure are in $(B)/links.
 LINKED := $(BENCH) $(addprefix $(B)/,$(MEASURES:%=links/measure-%) $(PROGRAMS) decodes scenes path page-hash faults demo-picture demo torus torus_few live room)
@@ -437,20 +449,22 @@ analytic: ## light against closed forms
 truth: ## light against path-traced pictures: small ones, and those of ../shared (LMB_SHARED)
 lanes: ## each kernel of each backend against plain C; LANES_SEED=7 repeats a run
 
-unit slow analytic truth lanes: $(B)/tests
-	@$(RUN) $(B)/tests $@
+unit analytic truth lanes: $(B)/$(UNIT_PROGRAM)
+	@$(RUN) $< $@
+slow: $(B)/tests
+	@$(RUN) $< $@
 
-truth-small: $(B)/tests ## light against the small path-traced pictures of tests/truth/small
-	@$(RUN) $(B)/tests small_truth relight
+truth-small: $(B)/$(UNIT_PROGRAM) ## light against the small path-traced pictures of tests/truth/small
+	@$(RUN) $< small_truth relight
 
 # The quick unit tests in two halves, for two cores, and the slow ones in six parts, for CI's turns.
-unit-1 unit-2: $(B)/tests
-	@$(RUN) $(B)/tests unit $(@:unit-%=%)/2
+unit-1 unit-2: $(B)/$(UNIT_PROGRAM)
+	@$(RUN) $< unit $(@:unit-%=%)/2
 
 SLOW_PARTS := $(addprefix slow-,1 2 3 4 5 6)
 .PHONY: $(SLOW_PARTS)
 $(SLOW_PARTS): $(B)/tests
-	@$(RUN) $(B)/tests slow $(@:slow-%=%)/$(words $(SLOW_PARTS))
+	@$(RUN) $< slow $(@:slow-%=%)/$(words $(SLOW_PARTS))
 
 golden: $(B)/golden ## hashes of small scenes against the committed hashes
 	@$(RUN) $(B)/golden$(EXE)
@@ -480,7 +494,8 @@ hostile: $(B)/hostile ## damaged samples through each parser (PREFIXES=5 MUTATIO
 hostile-cli: $(TOOL) ## absurd files through the whole tool
 	@$(IN_SH) tests/scripts/hostile_cli.sh
 
-layers: $(LIB) $(TOOL) $(BENCH) ## includes and calls go only to lower layers, without cycles (layers.txt)
+# Calls between objects: `make check` has none of lambent-bench, so check-all reads these.
+layers: $(LIB) $(TOOL) $(if $(filter slow%,$(CHECKS)),$(BENCH)) ## includes and calls go only to lower layers, without cycles (layers.txt)
 	@$(IN_SH) tests/scripts/layers.sh
 
 no-float: ## frames in integers use no float functions on a Cortex-M0+; prints their ROM
@@ -640,7 +655,7 @@ msan: ## pictures, hard cases and the corpus under the memory sanitizer
 # The target gl needs platform/gl, with a small heap, so that it is full at times.
 FUZZ_GL  := $(call object,tests/fuzz/main_gl.c $(wildcard platform/gl/gl_*.c))
 $(FUZZ_GL): COMPILE += -Iplatform/gl/include -DFUZZER -DGL_HEAP_BYTES='((size_t)1<<22)' -DGL_BOUNCE_ELEMENTS=256
-FUZZ_OBJ := $(call object,tests/fuzz/main_fuzz.c $(FUZZ_SRC)) $(FUZZ_GL) $(filter-out %/lambent.o,$(TOOL_OBJ))
+FUZZ_OBJ := $(call object,tests/fuzz/main_fuzz.c $(FUZZ_SRC)) $(FUZZ_GL) $(VERBS_OBJ)
 TARGETS   ?= png jpeg hdr pfm ppm pam picture inflate json gltf obj mtl ply lmr lmt lmf lmp cli api calls stages gl
 MINUTES   ?= 1
 fuzz: ## each parser, and the library's calls, under libFuzzer (MINUTES=1 of CPU each, TARGETS="png ...")

@@ -7,10 +7,14 @@
 #include <string.h>
 #include <time.h>
 
+#ifndef TEST_TABLE
+#define TEST_TABLE "tests.inc"
+#endif
+
 int test_passed, test_failed, test_skipped;
 
 #define TEST(group, name) void test_##name(void);
-#include "tests.inc"
+#include TEST_TABLE
 #undef TEST
 
 static const struct test {
@@ -18,7 +22,7 @@ static const struct test {
     void (*run)(void);
 } tests[] = {
 #define TEST(group, name) {#group, #name, test_##name},
-#include "tests.inc"
+#include TEST_TABLE
 #undef TEST
 };
 enum { TEST_COUNT = sizeof tests / sizeof tests[0] };
