@@ -120,6 +120,11 @@ status 2 play demo --world-every 2
 said "--world-every needs a numbered --world"
 status 2 play demo --world tone_%02d.pfm -o tone_%02d.pfm
 said "tone_%02d.pfm: both --world and -o"
+cp tone_04.pfm saved.pfm
+printf 'no picture' >tone_04.pfm
+status 1 play box.obj $rests --quality draft --world tone_%02d.pfm --frames 2 -o early_%01d.pfm
+check "no frame is drawn if a later world cannot be read" test ! -e early_0.pfm
+mv saved.pfm tone_04.pfm
 status 1 play demo --world none_%02d.pfm
 said "none_%02d.pfm: no world of this name with a number from 0 to 9999"
 echo "0 light:0 0,1,0 0,0,0" >sun.txt

@@ -61,6 +61,8 @@ done
 status 0 $field --path path.txt -o walk.ppm
 status 0 $field --path path.txt -o step_%03d.ppm
 check "a walk's pictures are numbered by the pattern" cmp step_002.ppm walk-0002.ppm
+status 0 $field --path path.txt -q -o walk.ppm
+check "a quiet walk prints nothing" sh -c '! test -s "$1" && ! test -s "$2"' sh out.txt err.txt
 cp white.pfm bad_001.pfm # the file that the second picture would overwrite is an input
 status 2 relight --world bad_001.pfm --object demo --size 16x8 --path path.txt -o bad_%03d.pfm
 said "bad_001.pfm: cannot be written: it is read"
@@ -102,7 +104,14 @@ mv tone_05.pfm tone_02.pfm
 ! tool $changes --world tone_%02d.pfm --world-every 2 --path rests.txt -q -o change_%01d.pfm >out.txt 2>err.txt && pass ||
     fail "a blend of two sizes ends with an error"
 said "tone_03.pfm: faces of 1 pixels, and tone_02.pfm has 2; files of one series have one size"
-rm -f tone_02.pfm
+rm -f tone_02.pfm change_*.pfm
+# A file that cannot be read ends the walk before the first picture.
+cp tone_04.pfm saved.pfm
+printf 'no picture' >tone_04.pfm
+status 1 $changes --world tone_%02d.pfm --path rests.txt -o change_%01d.pfm
+said "tone_04.pfm"
+check "no picture is drawn if a later world cannot be read" test ! -e change_0.pfm
+mv saved.pfm tone_04.pfm
 printf '0,0,0\n1,2\n' >path.txt
 status 1 $field --path path.txt -o bad.ppm
 check "a path's error names its line" holds 'path.txt:2: `1,2` is not X,Y,Z' err.txt
@@ -277,10 +286,10 @@ status 2 relight --world white.pfm --harmonics bad.json --at 0,0,0 --at 1,0,0
 check "a world that is half black is reported" sh -c '"$1" relight --world dusk_half.pfm --cube half_cube.pfm 2>&1 | grep -q "note: dusk_half.pfm: 50 % of it is black or blank"' sh "$TOOL"
 # Along a path, light changes smoothly: no step over 1 % although the light changes by 3 % from cube to cube.
 awk 'BEGIN { for (i = 0; i < 40; ++i) printf "%.3f,0,-2.5\n", -9.8 + 0.02 * i }' >path.txt
-status 0 relight --world demo --object demo --size 16x12 --path path.txt -q -o walk.ppm
+status 0 relight --world demo --object demo --size 16x12 --path path.txt -o walk.ppm
 check "steps of light are under 1 %" sh -c 'awk "/^largest step of light/{ ok = \$5 > 0.05 && \$5 <= 1 } END { exit !ok }" "$1"' sh out.txt
 awk 'BEGIN { for (i = 0; i < 6; ++i) printf "%.3f,0,-2.5\n", -9.8 + 0.151 * i }' >path.txt
-status 0 relight --world demo --object demo --size 16x12 --path path.txt -q -o walk.ppm
+status 0 relight --world demo --object demo --size 16x12 --path path.txt -o walk.ppm
 check "and from cube to cube more" sh -c 'awk "/^largest step of light/{ ok = \$5 > 2 } END { exit !ok }" "$1"' sh out.txt
 
 # Several objects: one object at two places equals two objects.

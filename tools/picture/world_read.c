@@ -288,6 +288,19 @@ int world_read_cube(lmb_world_pictures *out, world_pictures *own, const char *pa
     return is_there(path) ? read_one(out, own, path, r) : read_six(out, own, path, r);
 }
 
+int world_check(const char *path, int32_t *face_size, report *r)
+{
+    lmb_world_pictures cube;
+    world_pictures own;
+    memset(&cube, 0, sizeof cube);
+    memset(&own, 0, sizeof own);
+    report none = {""}; /* a prefix of six files is no file */
+    const int ok = world_read_cube(&cube, &own, path, r) && (!file_is_plain(path, &none) || file_keep(path, r));
+    world_pictures_free(&own);
+    *face_size = cube.face_size;
+    return ok;
+}
+
 int world_read_ground(lmb_world_pictures *out, world_pictures *own, const char *path, report *r)
 {
     stored_picture p;

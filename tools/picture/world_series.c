@@ -43,6 +43,26 @@ world_moment world_series_at(const world_series *s, int32_t k, int32_t every)
     return at;
 }
 
+int world_series_check(const world_series *s, int32_t pictures, int32_t every, int has_one_size, report *r)
+{
+    const world_moment last = world_series_at(s, pictures - 1, every);
+    const int32_t files = last.index + (last.share > 0.0f ? 2 : 1);
+    int32_t first = 0, side = 0;
+    char name[NAME], first_name[NAME];
+    for (int32_t i = 0; i < files; ++i) {
+        if (!world_series_name(name, sizeof name, s, i, r) || !world_check(name, &side, r)) {
+            return 0;
+        }
+        first = i == 0 ? side : first;
+        if (has_one_size && side != first) {
+            return world_series_name(first_name, sizeof first_name, s, 0, r) &&
+                   report_fail(r, "%s: faces of %d pixels, and %s has %d; files of one series have one size", name,
+                               (int)side, first_name, (int)first);
+        }
+    }
+    return 1;
+}
+
 /* --- a blend ------------------------------------------------------------------------------------------------------ */
 
 static float alpha_at(const lmb_world_pictures *p, int face, size_t i)
@@ -104,9 +124,9 @@ int world_series_read(lmb_world_pictures *out, world_pictures *own, const world_
         ok = world_series_name(name[i], NAME, s, at.index + i, r) &&
              world_read_cube(&cube[i], &memory[i], name[i], r);
     }
-    if (ok && cube[0].face_size != cube[1].face_size) {
-        ok = report_fail(r, "%s: faces of %d pixels, and %s has %d; files of one series have one size", name[1],
-                         (int)cube[1].face_size, name[0], (int)cube[0].face_size);
+    if (ok && cube[0].face_size != cube[1].face_size) { /* a file that has changed since world_series_check */
+        ok = report_fail(r, "%s: faces of %d pixels, and %s has %d", name[1], (int)cube[1].face_size, name[0],
+                         (int)cube[0].face_size);
     }
     ok = ok && blend(out, own, &cube[0], &cube[1], at.share, name[0], r);
     own->not_finite += memory[0].not_finite + memory[1].not_finite;

@@ -31,6 +31,11 @@ int play_world_hash(const play_world *w, render_options *o, report *r)
     return 1;
 }
 
+int play_world_check(const play_world *w, int32_t frames, int32_t every, report *r)
+{
+    return w->series.count == 0 || world_series_check(&w->series, frames, every, 1, r);
+}
+
 /* Reads a file, unless it is one of the last two. */
 static const world *file_of(play_world *w, const render_job *j, int32_t index, report *r)
 {
@@ -47,8 +52,8 @@ static const world *file_of(play_world *w, const render_job *j, int32_t index, r
         return NULL;
     }
     if (to->env.size != j->around.env.size) {
-        report_fail(r, "%s: faces of %d pixels here, and %s has %d; files of one series have one size", name,
-                    (int)to->env.size, w->first, (int)j->around.env.size);
+        report_fail(r, "%s: faces of %d pixels here, and %s has %d", name, (int)to->env.size, w->first,
+                    (int)j->around.env.size); /* a file that has changed since play_world_check */
         return NULL;
     }
     *own = index + 1;

@@ -345,7 +345,7 @@ static int draw_place(void *user, int32_t i, const char *name, report *r)
     const uint32_t kept = s->cache.kept;
     figures_stand(&s->figures, 0, s->path.place[i]);
     return light_figures(s, (uint32_t)i, r) && draw_shadows(s, r) && draw(s, r) && write(s, name, r) &&
-           place_tell(&s->path, i, name, s->cache.kept - kept == s->figures.owners);
+           place_tell(&s->path, i, name, s->cache.kept - kept == s->figures.owners, s->o->view.is_quiet);
 }
 
 /* --- before the first picture ------------------------------------------------------------------------------------- */
@@ -467,30 +467,18 @@ static int take_frame(stage *s, report *r)
 
 static int tell_step(const stage *s, report *r)
 {
-    report_say("largest step of light %.2f %%%s\n", 100.0 * (double)s->step,
-               s->worlds > 0 ? ", without changes of the world" : "");
+    if (!s->o->view.is_quiet) {
+        report_say("largest step of light %.2f %%%s\n", 100.0 * (double)s->step,
+                   s->worlds > 0 ? ", without changes of the world" : "");
+    }
     return report_flush(r);
 }
-
-#if !defined(OPTIONS_WITHOUT_HELP)
-static int can_be_read(const char *name, report *r)
-{
-    lmb_world_pictures place;
-    world_pictures own;
-    memset(&place, 0, sizeof place);
-    memset(&own, 0, sizeof own);
-    report none = {""}; /* a prefix of six files is no file */
-    const int ok =
-        world_read_cube(&place, &own, name, r) && (!file_is_plain(name, &none) || file_keep(name, r));
-    world_pictures_free(&own);
-    return ok;
-}
-#endif
 
 /* Tries to read all worlds of a path before the first picture. Each is read again when the path reaches it. */
 static int check_worlds(const stage *s, report *r)
 {
 #if !defined(OPTIONS_WITHOUT_HELP)
+    int32_t side = 0;
     for (int32_t i = 0; i < s->path.count; ++i) {
         const char *name = s->path.world[i];
         if (name != NULL && s->o->worlds > 1) {
@@ -500,9 +488,14 @@ static int check_worlds(const stage *s, report *r)
         if (name != NULL && s->light->series.count > 0) {
             return report_fail(r, "%s: names a world, and a numbered --world already changes", s->o->path);
         }
-        if (name != NULL && !can_be_read(name, r)) {
+        if (name != NULL && !world_check(name, &side, r)) {
             return 0;
         }
+    }
+    const int32_t every = s->o->world_every > 0 ? s->o->world_every : 1;
+    if (s->light->series.count > 0 &&
+        !world_series_check(&s->light->series, s->path.count, every, every > 1, r)) {
+        return 0;
     }
 #else
     (void)s, (void)r;
@@ -538,8 +531,10 @@ static int run(stage *s, report *r)
     if (!take_view(s, r) || !take_frame(s, r)) {
         return 0;
     }
-    return o->path != NULL ? place_list_walk(&s->path, o->out, draw_place, s, &s->cache, r) && tell_step(s, r)
-                           : light_figures(s, 0, r) && draw_shadows(s, r) && draw(s, r) && write(s, o->out, r);
+    if (o->path == NULL) {
+        return light_figures(s, 0, r) && draw_shadows(s, r) && draw(s, r) && write(s, o->out, r);
+    }
+    return place_list_walk(&s->path, o->out, draw_place, s, &s->cache, o->view.is_quiet, r) && tell_step(s, r);
 }
 
 static void stage_free(stage *s)

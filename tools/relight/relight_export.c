@@ -102,7 +102,7 @@ static int write_lobes(relight_light *w, const relight_options *o, lmb_vec3 at, 
         progress_tell("lobes", (double)i / LEVELS);
         ok = (see_lobe(planes, w, o, at, rays, roughness, side) || report_fail(r, "--at: numbers over 1,000,000 m")) &&
              frame_numbered(name, sizeof name, o->lobes, i, r) && relight_write_planes(name, planes, side, 6 * side, r);
-        if (ok) {
+        if (ok && !o->view.is_quiet) {
             report_say("%s  roughness %.1f, %d x %d a face\n", name, (double)roughness, (int)side, (int)side);
         }
     }

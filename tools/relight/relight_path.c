@@ -100,15 +100,17 @@ void place_list_free(place_list *list)
     free(list->place);
 }
 
-int place_tell(const place_list *list, int32_t i, const char *name, int is_kept)
+int place_tell(const place_list *list, int32_t i, const char *name, int is_kept, int is_quiet)
 {
     const lmb_vec3 at = list->place[i];
-    report_say("%s  %g,%g,%g  %s\n", name, (double)at.x, (double)at.y, (double)at.z, is_kept ? "kept" : "computed");
+    if (!is_quiet) {
+        report_say("%s  %g,%g,%g  %s\n", name, (double)at.x, (double)at.y, (double)at.z, is_kept ? "kept" : "computed");
+    }
     return 1;
 }
 
 int place_list_walk(const place_list *list, const char *out, place_draw *draw, void *user, const lmb_probe_cache *cache,
-                    report *r)
+                    int is_quiet, report *r)
 {
     if (!frames_can_write(out, list->count, r)) {
         return 0;
@@ -119,6 +121,8 @@ int place_list_walk(const place_list *list, const char *out, place_draw *draw, v
             return 0;
         }
     }
-    report_say("light computed %u times, kept %u times\n", (unsigned)cache->computed, (unsigned)cache->kept);
+    if (!is_quiet) {
+        report_say("light computed %u times, kept %u times\n", (unsigned)cache->computed, (unsigned)cache->kept);
+    }
     return report_flush(r);
 }

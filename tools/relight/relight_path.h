@@ -18,10 +18,11 @@ int place_list_read(place_list *out, const char *path, report *r);
 void place_list_free(place_list *list);
 
 /* place_list_walk: calls `draw` for each place with the name of a picture, derived from `out`, and finally prints how
- * often `cache` had the light. place_tell prints a place's line. They return 1, or 0 with `r` set. */
+ * often `cache` had the light. place_tell prints a place's line. They print nothing if `is_quiet` is set, and return 1,
+ * or 0 with `r` set. */
 typedef int place_draw(void *user, int32_t i, const char *name, report *r);
 int place_list_walk(const place_list *list, const char *out, place_draw *draw, void *user, const lmb_probe_cache *cache,
-                    report *r);
-int place_tell(const place_list *list, int32_t i, const char *name, int is_kept);
+                    int is_quiet, report *r);
+int place_tell(const place_list *list, int32_t i, const char *name, int is_kept, int is_quiet);
 
 #endif
