@@ -678,6 +678,10 @@ typedef struct sheet_shares {
     lane at1, at2, at_q, x1, x2, x_q;
 } sheet_shares;
 
+/* The bits of a row of a part in each of the part's rows. Rows are eight pixels apart, as SHEET_WIDE is 8 if a part has
+ * two rows. */
+LANE_INLINE uint32_t sheet_all_rows(uint32_t row) { return SHEET_HIGH > 1 ? row * 0x101u : row; }
+
 /* The values of a plane at the first pixels of the tiles that pixels x, ... of the row y of tiles lie in. */
 LANE_INLINE lane sheet_slope(const lmb_draw_sheet *s, const lmb_draw_plane *p, int32_t x, int32_t y)
 {
@@ -687,7 +691,7 @@ LANE_INLINE lane sheet_slope(const lmb_draw_sheet *s, const lmb_draw_plane *p, i
         return v;
     }
     const uint32_t row = (1u << (next - x)) - 1u;
-    return lane_pick(mask_of_bits(SHEET_HIGH > 1 ? row * 0x101u : row), v,
+    return lane_pick(mask_of_bits(sheet_all_rows(row)), v,
                      lane_splat((float)(p->origin + p->x * (s->x + next) + p->y * (s->y + y))));
 }
 
@@ -732,7 +736,7 @@ LANE_INLINE int sheet_set_parts(sheet_parts *out, const lmb_draw_sheet *s, int32
     const int32_t ex = s->edge_x, ey = s->edge_y;
     const int64_t low = (SHEET_WIDE - 1) * (int64_t)(ex < 0 ? ex : 0) + (SHEET_HIGH - 1) * (int64_t)(ey < 0 ? ey : 0),
                   high = (SHEET_WIDE - 1) * (int64_t)(ex > 0 ? ex : 0) + (SHEET_HIGH - 1) * (int64_t)(ey > 0 ? ey : 0);
-    const uint32_t row = (1u << n) - 1u, all = SHEET_HIGH > 1 ? row * 0x101u : row;
+    const uint32_t row = (1u << n) - 1u, all = sheet_all_rows(row);
     const int32_t y0 = s->y0 - y, y1 = s->y1 - y; /* rows */
     uint32_t firsts = 0, others = 0;
     out->from = y0 > 0 ? y0 / SHEET_HIGH : 0;

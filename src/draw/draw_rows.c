@@ -64,49 +64,34 @@ static int rows_lanes_sample(const lmb_draw_state *s)
     }
     return good;
 }
-#endif
 
 /* 1: a kernel draws whole triangles: without texture and fog, in common states. */
 static int rows_draw_areas(const lmb_draw_pass *pass)
 {
-#if LMB_DRAW_LANES
     return pass->paints_lanes && pass->state->kernels->draw_area != NULL && pass->paints_rows != ROWS_NOT &&
            pass->state->stage[0].texture == NULL && pass->state->area_pattern == NULL &&
            (!pass->tests || (pass->tests_rows && pass->target->depth.layout == LMB_LINEAR));
-#else
-    (void)pass;
-    return 0;
-#endif
 }
 
 /* 1: a kernel draws small triangles in batches. It reads and writes rows of eight pixels inside the pass's tiles. */
 static int rows_draw_small(const lmb_draw_pass *pass)
 {
-#if LMB_DRAW_LANES
     const lmb_draw_target *t = pass->target;
     return pass->draws != 0 && pass->state->kernels->draw_small != NULL &&
            mini(pass->x1 | 7, t->x0 + t->colour.width - 1) - maxi(pass->x0 & ~7, t->x0) >= 7 &&
            pass->vertices->count < (uint32_t)1 << 28; /* indices of floats fit 32 bits */
-#else
-    (void)pass;
-    return 0;
-#endif
 }
 
 /* 1: a kernel colours both triangles of upright rectangles. */
 static int rows_fills_sheet(const lmb_draw_pass *pass)
 {
-#if LMB_DRAW_LANES
     const lmb_draw_state *s = pass->state;
     return pass->paints_lanes && s->kernels->draw_sheet != NULL && rows_blend(s) != ROWS_NOT &&
            s->fog == LMB_DRAW_FOG_NONE && s->stage[1].texture == NULL &&
            (s->stage[0].texture == NULL || s->stage[0].mode == LMB_DRAW_MODULATE ||
             s->stage[0].mode == LMB_DRAW_REPLACE);
-#else
-    (void)pass;
-    return 0;
-#endif
 }
+#endif
 
 void lmb_draw_rows_begin(lmb_draw_pass *pass)
 {
@@ -117,17 +102,19 @@ void lmb_draw_rows_begin(lmb_draw_pass *pass)
     pass->tests_rows = (s->flags & LMB_DRAW_DEPTH_TEST) != 0 && (s->flags & LMB_DRAW_STENCIL) == 0 &&
                        pass->target->depth.format == LMB_DEPTH32F;
     pass->paints_rows = paints && s->fog == LMB_DRAW_FOG_NONE && rows_sample(s) ? rows_blend(s) : ROWS_NOT;
+    int sheets = 0;
+    pass->draws = 0;
 #if LMB_DRAW_LANES
     pass->paints_lanes =
         s->kernels != NULL && paints && rows_are_little() && s->fog <= LMB_DRAW_FOG_LINEAR && rows_lanes_sample(s);
-#endif
-    pass->draws = rows_draw_areas(pass) ? DRAW_AREAS : 0;
+    pass->draws |= rows_draw_areas(pass) ? DRAW_AREAS : 0;
     pass->draws |= rows_draw_small(pass) ? DRAW_SMALLS : 0;
+    sheets = rows_fills_sheet(pass) ? DRAW_FILLS_SHEET : 0;
+#endif
     if (paints && !pass->tests && s->area_pattern == NULL && s->planes == 0 && pass->vertices->back_colours == NULL &&
         (s->flags & (LMB_DRAW_CULL_FRONT | LMB_DRAW_CULL_BACK)) == 0 && s->polygon_mode[0] == LMB_DRAW_FILL &&
         s->polygon_mode[1] == LMB_DRAW_FILL) {
-        pass->fills = (pass->paints_rows != ROWS_NOT && s->stage[0].texture == NULL ? DRAW_FILLS_COLOUR : 0) |
-                      (rows_fills_sheet(pass) ? DRAW_FILLS_SHEET : 0);
+        pass->fills = (pass->paints_rows != ROWS_NOT && s->stage[0].texture == NULL ? DRAW_FILLS_COLOUR : 0) | sheets;
     }
 }
 

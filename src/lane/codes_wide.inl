@@ -63,7 +63,8 @@ static inline lanei codes_same(lanei x, lanei y)
                 t = WIDE(add_epi16)(WIDE(mullo_epi16)(WIDE(unpackhi_epi8)(y, zero), WIDE(sub_epi16)(all, high)), q);
     return WIDE(packus_epi16)(WIDE(mulhi_epu16)(r, by), WIDE(mulhi_epu16)(t, by));
 }
-/* Two pixels of 128 bits, left and right texel each, along x: at most 255 x 256. x: the share in 16-bit places. */
+/* Two pixels of 128 bits, left and right texel each, along x: at most 255 x 256. x: the share in 16-bit places.
+ * 0x01ff: the bytes -1 and 1, so a pair gives right - left. */
 static inline lanei wide_between_x(lanei pair, lanei x)
 {
     const lanei left = WIDE(shuffle_epi8)(

@@ -529,7 +529,7 @@ lmb_status lmb_bvh_build(lmb_bvh *inout, const lmb_scene *scene)
     if (inout->triangle_count > 0) {
         const item_span all = span_of_items(items, inout->triangle_count);
         const lmb_vec3 low = vec3(all.low[0], all.low[1], all.low[2]);
-        inout->margin = box_margin(low, vec3(all.high[0], all.high[1], all.high[2]));
+        inout->margin = half_box_margin(low, vec3(all.high[0], all.high[1], all.high[2]));
         fill_node(inout->node, items, 0, inout->triangle_count, 0);
         inout->node_count = 1;
         grow_nodes(inout, items);

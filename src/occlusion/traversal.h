@@ -117,7 +117,7 @@ static inline int eye_is_across(const lmb_traversal *t, lmb_vec3 normal, lmb_vec
 }
 
 /* Half of the margin of boxes (m). */
-static inline float box_margin(lmb_vec3 low, lmb_vec3 high)
+static inline float half_box_margin(lmb_vec3 low, lmb_vec3 high)
 {
     return 0.5f * (LMB_BOX_SIZE * largest3(sub3(high, low)) + LMB_BOX_PLACE * maxf(largest3(low), largest3(high)));
 }
@@ -125,7 +125,7 @@ static inline float box_margin(lmb_vec3 low, lmb_vec3 high)
 /* Distance (m) by which a triangle may be widened: half of the margin of boxes, so that none is missed. */
 static inline float triangle_margin(const lmb_bvh_triangle *t)
 {
-    return box_margin(min3(min3(t->corner[0], t->corner[1]), t->corner[2]),
+    return half_box_margin(min3(min3(t->corner[0], t->corner[1]), t->corner[2]),
                       max3(max3(t->corner[0], t->corner[1]), t->corner[2]));
 }
 
