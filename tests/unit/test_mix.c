@@ -521,6 +521,40 @@ static void near_light_is_by_both(void)
     }
 }
 
+/* A ball of light softens the block's shadow, and the width of the penumbra gives its size: 2 asin(radius / distance) from
+ * the object's foot. In these small photos it is right to a third. */
+static void near_light_has_size(void)
+{
+    enum { BALL_POINTS = 48 };
+    static const float balls[2][4] = {{-1.1f, 0.9f, -2.2f, 0.2f}, {-1.4f, 0.8f, -1.2f, 0.4f}};
+    char *object[] = {"--object", square, "--at", "60,62", "--scale", "0.2", "--quiet"};
+    for (int i = 0; i < 2; ++i) {
+        const float *p = balls[i], radius = p[3];
+        mix_job *j = begin(object, 7);
+        report r = {""};
+        lmb_light sun;
+        float softens = -1.0f;
+        float *sum = calloc(3 * PIXELS, sizeof *sum);
+        set_block(j, (lmb_vec3){0, 1, 0}, 1.0f);
+        CHECK(sum != NULL && place(j));
+        for (int n = 0; n < BALL_POINTS && sum != NULL; ++n) { /* points on the ball, in equal areas */
+            const float y = 1.0f - (2.0f * (float)n + 1.0f) / BALL_POINTS, flat = sqrtf(1.0f - y * y), turn = 2.4f * (float)n;
+            const float at[3] = {p[0] + radius * flat * cosf(turn), p[1] + radius * y, p[2] + radius * flat * sinf(turn)};
+            set_lamp(j, at, 0.15f, 1, NULL);
+            for (int k = 0; k < 3 * PIXELS; ++k) {
+                sum[k] += j->frame.light.pixels[k] / BALL_POINTS;
+            }
+        }
+        memcpy(j->frame.light.pixels, sum, 3 * PIXELS * sizeof *sum);
+        free(sum);
+        CHECK_MSG(mix_light(j, &r), "%s", r.text);
+        const float size = mix_guess_sun(&sun, &softens, j), x = p[0] - j->anchor.x, y = p[1] - j->anchor.y, z = p[2] - j->anchor.z;
+        const float wide = 114.6f * asinf(radius / sqrtf(x * x + y * y + z * z));
+        CHECK_MSG(fabsf(size - wide) < 0.34f * wide, "%d: %g wide, right is %g", i, (double)size, (double)wide);
+        mix_job_free(j);
+    }
+}
+
 /* If the light is unknown, places that see half of it blocked darken less, and those that see nothing darken in full. */
 static void unknown_light_darkens_less(void)
 {
@@ -1046,6 +1080,7 @@ void test_mix(void)
     around_darkens();
     sun_is_by_shadows();
     near_light_is_by_both();
+    near_light_has_size();
     lamp_is_by_falloff();
     unknown_light_darkens_less();
     worlds_may_be_upside_down();
