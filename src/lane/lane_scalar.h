@@ -8,6 +8,8 @@
 
 #include "../base/vec.h"
 
+#include <string.h>
+
 #include "backends.h"
 
 /* 1 if a file defines LANE_ONE, to run a kernel's formula for a single value. */
@@ -216,16 +218,23 @@ static inline void lane_put_u32(uint32_t *p, int32_t step, uint32_t id, lane_mas
     (void)step;
     EACH(if (m.v[i]) p[i] = id);
 }
-/* Raises 2 LANES codes from p on to those of a, then of b. The codes are below 65536 and are truncated; negative ones
- * count as 0. Loops, because gcc vectorizes 16-bit values in loops but not in EACH. */
-static inline void lane_raise_u16(uint16_t *p, lane a, lane b)
+/* Raises 2 LANES codes from p on: those at even places to `even`, the others to `odd` (LANE_PAIRS; other backends take
+ * the first half, then the second). Compilers then join two codes by a shift, in place of six shuffles. The codes are
+ * below 65536 and are truncated; negative ones count as 0. */
+#define LANE_PAIRS
+static inline void lane_raise_u16(uint16_t *p, lane even, lane odd)
 {
-    float code[2 * LANES];
-    lane_store(code, a);
-    lane_store(code + LANES, b);
+    static const uint16_t one = 1;
+    const int shift = *(const uint8_t *)&one == 1 ? 0 : 16; /* of the code that is first in memory */
+    uint32_t pair[LANES];
+    uint16_t code[2 * LANES];
+    for (int i = 0; i < LANES; ++i) { /* loops, because gcc makes branches of EACH */
+        const int32_t a = (int32_t)(even.v[i] > 0.0f ? even.v[i] : 0.0f), b = (int32_t)(odd.v[i] > 0.0f ? odd.v[i] : 0.0f);
+        pair[i] = (uint32_t)a << shift | (uint32_t)b << (16 - shift);
+    }
+    memcpy(code, pair, sizeof code);
     for (int i = 0; i < 2 * LANES; ++i) {
-        const uint16_t c = (uint16_t)(int32_t)(code[i] > 0.0f ? code[i] : 0.0f);
-        p[i] = p[i] > c ? p[i] : c;
+        p[i] = p[i] > code[i] ? p[i] : code[i];
     }
 }
 /* Replaces smaller depths by d, and their ids by `id`. Only in this backend: if two stores share a mask, gcc does not
@@ -238,6 +247,19 @@ static inline void lane_put_larger_u32(float *p, uint32_t *ids, uint32_t id, lan
     EACH(d.v[i] = was.v[i] < d.v[i] ? d.v[i] : was.v[i]);
     EACH(ids[i] = (uint32_t)r.v[i]);
     EACH(p[i] = d.v[i]);
+}
+/* Replaces smaller 16-bit codes by those of `code`, which are 0 .. 65535 and are truncated, and their ids by `id`, if the
+ * mask is set. Without branches, which cost more. */
+static inline void lane_put_larger_u16(uint16_t *p, uint16_t *ids, uint32_t id, lane code, lane_mask m)
+{
+    lanei was, named, now;
+    EACH(was.v[i] = p[i]);
+    EACH(named.v[i] = ids[i]);
+    EACH(now.v[i] = (int32_t)((uint32_t)(int32_t)code.v[i] & m.v[i]));
+    EACH(named.v[i] = now.v[i] > was.v[i] ? (int32_t)id : named.v[i]);
+    EACH(was.v[i] = now.v[i] > was.v[i] ? now.v[i] : was.v[i]);
+    EACH(p[i] = (uint16_t)was.v[i]);
+    EACH(ids[i] = (uint16_t)named.v[i]);
 }
 
 #undef EACH

@@ -271,8 +271,7 @@ LANE_INLINE void culled_large_fill(const lmb_fill_window *w, const lmb_setup *s,
     job.d_scale = w->d_scale;
     job.d_bias = w->d_bias;
     job.id = id;
-    fill_set(&t, s->ex, s->ey, &job);
-    t.codes = kind == FILL_CODES;
+    fill_set(&t, s->ex, s->ey, &job, kind);
     large_set(&edges, s, (w->x0 + tx * LMB_TILE) * 256 + w->origin_x, (w->y0 + ty * LMB_TILE) * 256 + w->origin_y);
     large_plane_set(&whole, &t);
     plane.d_origin = s->d_origin;

@@ -59,6 +59,13 @@ LANE_INLINE void fill_pixels(const lmb_fill_tile *tile, const lmb_fill_job *job,
         lane_put_larger_u32(p, (uint32_t *)tile->id + id_at, id, d);
         return;
     }
+    if (tile->depth_format == LMB_DEPTH16 && tile->id_format == LMB_ID16) {
+        const lane code = lane_add(lane_mul(d, lane_splat(job->d_scale)), lane_splat(job->d_bias));
+        lane_put_larger_u16((uint16_t *)tile->depth + at, (uint16_t *)tile->id + id_at, id,
+                            lane_max(lane_min(lane_splat(65535.0f), code), lane_splat(0.0f)),
+                            in != NULL ? *in : mask_of_bits(0xffffu));
+        return;
+    }
 #endif
     const lane_mask pass = fill_depth(tile, job, at, d, in != NULL ? *in : mask_of_bits(0xffffu));
     fill_id(tile, id_at, id, pass);
@@ -183,9 +190,74 @@ LANE_INLINE lane fill_code(lane d, const fill_triangle *t, const lmb_fill_job *j
     return lane_add(lane_mul(d, lane_splat(job->d_scale)), lane_splat(job->d_bias));
 }
 
+/* The steps of a pair for lane_raise_u16: of the even columns, then of the odd ones. */
+LANE_INLINE void fill_set_pairs(fill_triangle *t, float dx)
+{
+#if defined(LANE_PAIRS)
+    static const float column[2 * LANES] = {0, 2, 4, 6, 1, 3, 5, 7};
+    for (int i = 0; i < FILL_ACROSS; ++i) {
+        t->step_d[i] = lane_mul(lane_splat(dx), lane_load(column + i * LANES));
+        t->step[0][i] = lanei_affine(t->ex[0] * i, 2 * t->ex[0], 0, 0);
+        t->step[1][i] = lanei_affine(t->ex[1] * i, 2 * t->ex[1], 0, 0);
+        t->step[2][i] = lanei_affine(t->ex[2] * i, 2 * t->ex[2], 0, 0);
+    }
+#else
+    (void)t, (void)dx;
+#endif
+}
+
 /* Column and row of the second vector of a pair. */
 enum { FILL_NEXT_COLUMN = FILL_ACROSS - 1, FILL_NEXT_ROW = FILL_ACROSS > 1 ? 0 : FILL_ROWS };
 
+#if defined(LANE_PAIRS)
+/* Raises a row to the codes of row + dx x. sums: not negative for pixels inside; NULL: all are. In loops over the lanes,
+ * because gcc makes branches of the verbs for one lane here. */
+LANE_INLINE void fill_codes_row(uint16_t *p, float row, const fill_triangle *t, const lmb_fill_job *job,
+                                const lanei *sums, int clamped)
+{
+    lane code[2];
+    for (int k = 0; k < 2; ++k) {
+        for (int i = 0; i < LANES; ++i) {
+            float d = row + t->step_d[k].v[i];
+            if (clamped) {
+                d = maxf(d, job->d_min);
+                d = minf(d, job->d_max);
+            }
+            d = d * job->d_scale + job->d_bias;
+            code[k].v[i] = sums == NULL || sums[k].v[i] >= 0 ? d : 0.0f;
+        }
+    }
+    lane_raise_u16(p, code[0], code[1]);
+}
+
+LANE_INLINE void fill_codes_rows(uint16_t *p, const lmb_fill_job *job, const fill_triangle *t, const int32_t e[3],
+                                 float d, int32_t first, int32_t last)
+{
+    lanei at[3][2], sums[2];
+    for (int n = 0; n < 3; ++n) {
+        at[n][0] = lanei_add(lanei_splat(e[n]), t->step[n][0]);
+        at[n][1] = lanei_add(lanei_splat(e[n]), t->step[n][1]);
+    }
+    for (int32_t y = first; y <= last; ++y) {
+        for (int k = 0; k < 2; ++k) {
+            for (int i = 0; i < LANES; ++i) {
+                sums[k].v[i] = at[0][k].v[i] | at[1][k].v[i] | at[2][k].v[i];
+                at[0][k].v[i] += t->ey[0];
+                at[1][k].v[i] += t->ey[1];
+                at[2][k].v[i] += t->ey[2];
+            }
+        }
+        fill_codes_row(p + y * LMB_TILE, d + t->per_row * (float)y, t, job, sums, 1);
+    }
+}
+
+LANE_INLINE void fill_codes_inside(uint16_t *p, const lmb_fill_job *job, const fill_triangle *t, int clamped)
+{
+    for (int32_t y = 0; y < LMB_TILE; ++y) {
+        fill_codes_row(p + y * LMB_TILE, job->d + t->per_row * (float)y, t, job, NULL, clamped);
+    }
+}
+#else
 /* Rows first .. last of a tile of codes. e: the edges at the tile's pixel (0, first); first is a multiple of
  * FILL_PAIR. */
 LANE_INLINE void fill_codes_rows(uint16_t *p, const lmb_fill_job *job, const fill_triangle *t, const int32_t e[3],
@@ -226,6 +298,7 @@ LANE_INLINE void fill_codes_inside(uint16_t *p, const lmb_fill_job *job, const f
     }
 }
 #endif
+#endif
 
 /* A tile that no edge crosses. `clamped`: the plane may leave the triangle's range. */
 LANE_INLINE void fill_inside(const lmb_fill_tile *tile, const lmb_fill_job *job, const fill_triangle *t, int clamped)
@@ -264,13 +337,13 @@ LANE_INLINE int fill_in_range(const lmb_fill_job *job)
     return low >= job->d_min && high <= job->d_max;
 }
 
-LANE_INLINE void fill_set(fill_triangle *t, const int32_t ex[3], const int32_t ey[3], const lmb_fill_job *job)
+LANE_INLINE void fill_set(fill_triangle *t, const int32_t ex[3], const int32_t ey[3], const lmb_fill_job *job, int kind)
 {
     t->per_row = job->dy;
     t->d_min = lane_splat(job->d_min);
     t->d_max = lane_splat(job->d_max);
     t->id = job->id;
-    t->codes = 0;
+    t->codes = kind == FILL_CODES;
     t->ex[0] = ex[0], t->ex[1] = ex[1], t->ex[2] = ex[2];
     t->ey[0] = ey[0], t->ey[1] = ey[1], t->ey[2] = ey[2];
     for (int i = 0; i < FILL_ACROSS; ++i) {
@@ -279,4 +352,9 @@ LANE_INLINE void fill_set(fill_triangle *t, const int32_t ex[3], const int32_t e
         t->step[1][i] = lanei_affine(0, ex[1], ey[1], i * LANES);
         t->step[2][i] = lanei_affine(0, ex[2], ey[2], i * LANES);
     }
+#if LANES > 1
+    if (kind == FILL_CODES) {
+        fill_set_pairs(t, job->dx);
+    }
+#endif
 }

@@ -428,8 +428,7 @@ LANE_INLINE void large_fill(const lmb_fill_window *w, const lmb_setup *s, uint32
     job.d_scale = w->d_scale;
     job.d_bias = w->d_bias;
     job.id = id;
-    fill_set(&t, s->ex, s->ey, &job);
-    t.codes = kind == FILL_CODES;
+    fill_set(&t, s->ex, s->ey, &job, kind);
 #if LANES >= LMB_TILE
     large_plane_set(&plane, &t);
 #endif

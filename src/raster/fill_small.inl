@@ -113,8 +113,7 @@ LANE_INLINE void small_alone(const lmb_fill_window *w, const lmb_batch *b, int k
     job.d_min = b->d_min[k];
     job.d_max = b->d_max[k];
     job.id = id;
-    fill_set(&t, ex, ey, &job);
-    t.codes = kind == FILL_CODES;
+    fill_set(&t, ex, ey, &job, kind);
     small_fill(w, &job, b, k, &t, kind);
 }
 
@@ -168,7 +167,7 @@ void small_each(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, int
         job.d_min = b->d_min[k];
         job.d_max = b->d_max[k];
         job.id = b->id[k];
-        fill_set(&t, ex, ey, &job);
+        fill_set(&t, ex, ey, &job, FILL_ANY);
         switch (kind) {
         case FILL_PLAIN: small_fill(w, &job, b, k, &t, FILL_PLAIN); break;
         case FILL_ID32: small_fill(w, &job, b, k, &t, FILL_ID32); break;
