@@ -229,7 +229,8 @@ static inline void lane_raise_u16(uint16_t *p, lane even, lane odd)
     uint32_t pair[LANES];
     uint16_t code[2 * LANES];
     for (int i = 0; i < LANES; ++i) { /* loops, because gcc makes branches of EACH */
-        const int32_t a = (int32_t)(even.v[i] > 0.0f ? even.v[i] : 0.0f), b = (int32_t)(odd.v[i] > 0.0f ? odd.v[i] : 0.0f);
+        const int32_t a = (int32_t)(even.v[i] > 0.0f ? even.v[i] : 0.0f);
+        const int32_t b = (int32_t)(odd.v[i] > 0.0f ? odd.v[i] : 0.0f);
         pair[i] = (uint32_t)a << shift | (uint32_t)b << (16 - shift);
     }
     memcpy(code, pair, sizeof code);
@@ -248,8 +249,8 @@ static inline void lane_put_larger_u32(float *p, uint32_t *ids, uint32_t id, lan
     EACH(ids[i] = (uint32_t)r.v[i]);
     EACH(p[i] = d.v[i]);
 }
-/* Replaces smaller 16-bit codes by those of `code`, which are 0 .. 65535 and are truncated, and their ids by `id`, if the
- * mask is set. Without branches, which cost more. */
+/* Replaces smaller 16-bit codes by those of `code`, which are 0 .. 65535 and are truncated, and their ids by `id`, if
+ * the mask is set. Without branches, which cost more. */
 static inline void lane_put_larger_u16(uint16_t *p, uint16_t *ids, uint32_t id, lane code, lane_mask m)
 {
     lanei was, named, now;

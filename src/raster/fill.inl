@@ -210,8 +210,8 @@ LANE_INLINE void fill_set_pairs(fill_triangle *t, float dx)
 enum { FILL_NEXT_COLUMN = FILL_ACROSS - 1, FILL_NEXT_ROW = FILL_ACROSS > 1 ? 0 : FILL_ROWS };
 
 #if defined(LANE_PAIRS)
-/* Raises a row to the codes of row + dx x. sums: not negative for pixels inside; NULL: all are. In loops over the lanes,
- * because gcc makes branches of the verbs for one lane here. */
+/* Raises a row to the codes of row + dx x. sums: not negative for pixels inside; NULL: all are. In loops over the
+ * lanes, because gcc makes branches of the verbs for one lane here. */
 LANE_INLINE void fill_codes_row(uint16_t *p, float row, const fill_triangle *t, const lmb_fill_job *job,
                                 const lanei *sums, int clamped)
 {

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "../../src/lane/kernels.h"
+#include "../laid_surface.h"
 #include "seed.h"
 
 void test_draw_lists(void);
@@ -298,18 +299,27 @@ static void count_area(lmb_draw_area *area)
     area_of(area);
 }
 
-static void draw_area_case(uint32_t *out, float corners[3][3], const lmb_kernels *kernels)
+typedef struct area_canvas {
+    uint32_t colour[AREA_WIDE * AREA_HIGH];
+    float depth[AREA_WIDE * AREA_HIGH];
+} area_canvas;
+
+/* Draws over `out`. tests: 1: where the depth is less than the stored one. */
+static void draw_area_case(area_canvas *out, float corners[3][3], int tests, const lmb_kernels *kernels)
 {
     lmb_draw_target t;
     lmb_draw_state s;
     lmb_draw_vertices v;
-    memset(out, 0, AREA_WIDE * AREA_HIGH * sizeof *out);
     memset(&t, 0, sizeof t);
     memset(&v, 0, sizeof v);
-    CHECK(lmb_surface_init(&t.colour, LMB_RGBA8, AREA_WIDE, AREA_HIGH, out, AREA_WIDE * AREA_HIGH * sizeof *out) ==
-          LMB_OK);
+    CHECK(lmb_surface_init(&t.colour, LMB_RGBA8, AREA_WIDE, AREA_HIGH, out->colour, sizeof out->colour) == LMB_OK);
     CHECK(lmb_draw_state_init(&s, AREA_WIDE, AREA_HIGH) == LMB_OK && lmb_draw_pixels(&s) == LMB_OK);
     s.kernels = kernels;
+    if (tests) {
+        t.depth = surface_of(LMB_DEPTH32F, LMB_LINEAR, AREA_WIDE, AREA_HIGH, out->depth);
+        s.flags |= LMB_DRAW_DEPTH_TEST | LMB_DRAW_DEPTH_WRITE;
+        s.depth_func = LMB_DRAW_LESS;
+    }
     v.positions = corners[0];
     v.count = 3;
     CHECK(lmb_draw_list(&t, &s, &v, LMB_DRAW_TRIANGLES, NULL, NULL) == LMB_OK);
@@ -319,22 +329,35 @@ static void draw_area_case(uint32_t *out, float corners[3][3], const lmb_kernels
  * corners of tiles, and through centres of pixels at the tiles' rims. */
 static void check_areas(const lmb_kernels *backend)
 {
-    static uint32_t want[AREA_WIDE * AREA_HIGH], got[AREA_WIDE * AREA_HIGH];
+    static area_canvas want, got;
     test_rng r = seed_rng(11);
     int unlike = 0;
     counting = *backend;
     area_of = counting.draw_area;
     counting.draw_area = area_of != NULL ? count_area : NULL;
     areas = 0;
+    memset(&want, 0, sizeof want);
+    memset(&got, 0, sizeof got);
     for (int n = 0; n < AREAS; ++n) {
         float corners[3][3] = {{0}};
+        const int tests = n % 2;
         for (int i = 0; i < 3; ++i) {
             corners[i][0] = 0.5f * (float)any(&r, 2 * AREA_WIDE + 1);
             corners[i][1] = 0.5f * (float)any(&r, 2 * AREA_HIGH + 1);
+            corners[i][2] = tests ? 0.125f * (float)any(&r, 9) : 0.0f;
         }
-        draw_area_case(want, corners, NULL);
-        draw_area_case(got, corners, &counting);
-        unlike += memcmp(want, got, sizeof want) != 0;
+        if (tests && n % 20 == 1) { /* the triangles in between cross each other */
+            for (int i = 0; i < AREA_WIDE * AREA_HIGH; ++i) {
+                want.depth[i] = got.depth[i] = 1.0f;
+            }
+        }
+        if (!tests) {
+            memset(want.colour, 0, sizeof want.colour);
+            memset(got.colour, 0, sizeof got.colour);
+        }
+        draw_area_case(&want, corners, tests, NULL);
+        draw_area_case(&got, corners, tests, &counting);
+        unlike += memcmp(&want, &got, sizeof want) != 0;
     }
     CHECK_MSG(unlike == 0, "%s: %d of %d triangles differ from plain C", lmb_kernels_name(backend), unlike, AREAS);
     CHECK_MSG(area_of == NULL || areas > AREAS / 2, "%s: %d areas", lmb_kernels_name(backend), areas);

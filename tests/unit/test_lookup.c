@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "../../src/raster/triangle.h"
 #include "../test.h"
 
 void test_lookup(void);
@@ -96,6 +97,27 @@ static void test_vertices(void)
     CHECK(lmb_mesh_index(NULL, 0) == UINT32_MAX);
 }
 
+#if LMB_LIVE
+/* A triangle is flat if its three normals are equal, or if its mesh has none. */
+static void test_flat(void)
+{
+    const int16_t kept[2] = {normals[1][0], normals[1][1]};
+    CHECK(lmb_triangle_is_flat(&scene, 1) && lmb_triangle_is_flat(&scene, 2) && lmb_triangle_is_flat(&scene, 3));
+    CHECK(!lmb_triangle_is_flat(&scene, 0) && !lmb_triangle_is_flat(&scene, 4));
+    lmb_octahedral_encode(normals[1], (lmb_vec3){0.6f, 0, 0.8f}); /* a corner of triangle 1 */
+    CHECK(!lmb_triangle_is_flat(&scene, 1) && lmb_triangle_is_flat(&scene, 2));
+    memcpy(normals[1], kept, sizeof kept);
+    lmb_octahedral_encode(normals[2], (lmb_vec3){0.6f, 0, 0.8f}); /* the last corner of 1, and one of 2 */
+    CHECK(!lmb_triangle_is_flat(&scene, 1) && !lmb_triangle_is_flat(&scene, 2));
+    memcpy(normals[2], kept, sizeof kept);
+    materials[0].normal_scale = 0.5f;
+    CHECK(!lmb_triangle_is_flat(&scene, 1));
+    materials[0].normal_scale = 0.0f;
+}
+#else
+static void test_flat(void) { }
+#endif
+
 /* The texture's alpha where a pixel sees the square, by hand: material x texture x vertices. */
 static float alpha_by_hand(const lmb_view *view, int32_t x, int32_t y)
 {
@@ -120,6 +142,10 @@ static void test_alpha(void)
             if (fabsf(s) < 1.0f && fabsf(t) < 1.0f) {
                 const float a = lmb_triangle_alpha(&view, &scene, id, x, y), exact = alpha_by_hand(&view, x, y);
                 CHECK_MSG(fabsf(a - exact) < 1e-4f, "(%d, %d): %g, by hand %g", (int)x, (int)y, (double)a, (double)exact);
+                materials[0].flags = LMB_ALPHA_MASK;
+                const float masked = lmb_triangle_alpha(&view, &scene, id, x, y);
+                CHECK_MSG(fabsf(masked - exact) < 1e-4f, "(%d, %d): %g of a mask", (int)x, (int)y, (double)masked);
+                materials[0].flags = 0;
                 ++seen;
             }
         }
@@ -169,6 +195,7 @@ void test_lookup(void)
     make();
     test_triangles();
     test_vertices();
+    test_flat();
     test_alpha();
     test_texels();
     test_backends();

@@ -742,7 +742,8 @@ static void test_two_maps(void)
 
 static lmb_texel around_points[4096];
 
-/* Each part has the colour at its centre: vertex colours, and a black-to-white texture with both kinds of uvs. */
+/* Each part has the colour at its centre: vertex colours of 8 and 16 bits, and a black-to-white texture with both kinds
+ * of uvs. */
 static void check_coloured(lmb_scene *scene, lmb_mesh *mesh, lmb_material *material, const lmb_env *env)
 {
     static const uint8_t colours[16] = {255, 0, 51, 255, 0, 204, 102, 255, 51, 255, 255, 255};
@@ -750,12 +751,17 @@ static void check_coloured(lmb_scene *scene, lmb_mesh *mesh, lmb_material *mater
     static const uint16_t uvs_16[8] = {16384, 32768, 49151, 32768, 16384, 32768};
     static const uint8_t black_to_white[8] = {0, 0, 0, 255, 255, 255, 255, 255};
     const lmb_texture texture = {black_to_white, 2, 1, 1, LMB_WRAP_CLAMP, LMB_WRAP_CLAMP, LMB_BILINEAR, 0};
+    uint16_t wide[16];
+    for (int i = 0; i < 16; ++i) {
+        wide[i] = (uint16_t)(65535.0 * sqrt(colours[i] / 255.0) + 0.5);
+    }
     scene->textures = &texture;
     scene->texture_count = 1;
-    mesh->colours = colours;
     mesh->uv_scale[0] = mesh->uv_scale[1] = 1.0f;
-    for (int kind = 0; kind < 3; ++kind) {
+    for (int kind = 0; kind < (LMB_TEXTURE_FORMATS ? 4 : 3); ++kind) {
         material->texture = kind > 0 ? 0 : -1;
+        mesh->colours = kind == 3 ? (const uint8_t *)wide : colours;
+        mesh->colour_format = kind == 3 ? LMB_COLOUR_RGBA16 : LMB_COLOUR_RGBA8;
         mesh->uvs = kind == 2 ? (const void *)uvs_16 : uvs;
         mesh->uv_format = kind == 2 ? LMB_UV_U16 : LMB_UV_F32;
         const size_t n = lmb_around_points(around_points, 4096, scene, 1, 1, 0.5f, env);
@@ -772,6 +778,8 @@ static void check_coloured(lmb_scene *scene, lmb_mesh *mesh, lmb_material *mater
             }
         }
     }
+    mesh->colours = colours;
+    mesh->colour_format = LMB_COLOUR_RGBA8;
 }
 
 /* A part samples the texels inside it from the texture levels: a mean of all texels would make each part grey. */

@@ -243,8 +243,31 @@ static void test_random_scenes(void)
     CHECK_MSG(skipped > 2 && faces > 5, "%d %d", skipped, faces);
 }
 
+#if LMB_LIVE
+/* A sky of live light counts with its suns. */
+static void test_sky_memory(void)
+{
+    static lmb_plan plan;
+    lmb_live_sky sky;
+    test_rng rng = {12};
+    random_scene(&rng);
+    lmb_frame f = frame_of(1);
+    gather_live(&f);
+    memset(&sky, 0, sizeof sky);
+    sky.sun_cap = 9;
+    CHECK(lmb_render_begin(&render, &f) == LMB_OK && lmb_plan_frame(&plan, &render, NULL) == LMB_OK);
+    const uint64_t before = plan.row[LMB_PLAN_POINTS].bytes;
+    render.frame.live_sky = &sky;
+    CHECK(lmb_plan_frame(&plan, &render, NULL) == LMB_OK);
+    CHECK(plan.row[LMB_PLAN_POINTS].bytes - before == lmb_live_sky_bytes(9) + sizeof sky);
+}
+#else
+static void test_sky_memory(void) { }
+#endif
+
 void test_plan(void)
 {
+    test_sky_memory();
     test_convex();
     test_no_traversal();
     test_not_convex();

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "../../src/base/vec.h"
+#include "../../src/occlusion/traversal.h"
 #include "../../tools/bake/bake.h"
 #include "../../tools/play/play_space.h"
 
@@ -111,8 +112,31 @@ static void sights_are_bounded(star *s, uint32_t needles, test_rng *r)
     play_space_free(&space);
 }
 
+/* A tile whose budget of sun rays is spent repeats the last answer: of pixels that were asked then their own, of others
+ * that of the next asked one, in the order of the tile and around. */
+static void spent_suns_repeat(void)
+{
+    static lmb_bvh bvh;
+    static lmb_tile tile;
+    lmb_traversal t;
+    memset(&t, 0, sizeof t);
+    t.bounded = 1;
+    t.sun_spent = 0x10000000;
+    t.sun_asked = (uint64_t)1 << 2 | (uint64_t)1 << 10 | (uint64_t)1 << 40;
+    t.sun_dark = (uint64_t)1 << 2 | (uint64_t)1 << 10;
+    bvh.node_count = 1;
+    const uint64_t all = ~(uint64_t)0, dark = lmb_occluded_sun(lmb_kernels_pick(), &t, &bvh, &tile, all, vec3(0, 1, 0));
+    CHECK_MSG(dark == (0x7ff | all << 41), "%#llx", (unsigned long long)dark);
+    CHECK(lmb_occluded_sun(lmb_kernels_pick(), &t, &bvh, &tile, 0x900, vec3(0, 1, 0)) == 0x100);
+    CHECK(t.coarse == 2 && t.spent == 0);
+    t.sun_asked = 0; /* nothing was asked: nothing is dark */
+    t.sun_dark = 0;
+    CHECK(lmb_occluded_sun(lmb_kernels_pick(), &t, &bvh, &tile, all, vec3(0, 1, 0)) == 0 && t.coarse == 3);
+}
+
 void test_search_bounds(void)
 {
+    spent_suns_repeat();
     static star s;
     for (int many = 0; many < 2; ++many) {
         test_rng r = {57};

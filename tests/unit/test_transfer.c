@@ -1445,6 +1445,26 @@ static void draws_frames(const lmb_transfer *t, const lmb_scene *scene)
     free(f.memory);
 }
 
+#if LMB_PLAN
+/* A plan counts the memory of baked light, and of the elements' places if the lights have no maps. */
+static void plans_places(const lmb_transfer *t)
+{
+    static lmb_plan plan;
+    lmb_transfer_place *kept = render.frame.transfer_light.place;
+    uint64_t bytes[2];
+    for (int i = 0; i < 2; ++i) {
+        render.frame.transfer_light.place = i == 0 ? kept : NULL;
+        CHECK(lmb_plan_frame(&plan, &render, NULL) == LMB_OK);
+        bytes[i] = plan.row[LMB_PLAN_POINTS].bytes;
+    }
+    render.frame.transfer_light.place = kept;
+    CHECK(kept != NULL && bytes[0] - bytes[1] == (uint64_t)t->count[LMB_TRANSFER_AREAS] * sizeof *kept);
+    CHECK(bytes[1] >= lmb_transfer_light_bytes(t));
+}
+#else
+static void plans_places(const lmb_transfer *t) { (void)t; }
+#endif
+
 /* Frames of lights without maps: the elements collect 4 pi of the summed intensities, and the bounced light is the same
  * in steps of any size. In each step the progress of the bounces grows. */
 static void draws_many_lights(const lmb_transfer *t)
@@ -1461,6 +1481,7 @@ static void draws_many_lights(const lmb_transfer *t)
         CHECK_MSG(fabs(got / want - 1.0) < 0.05, "%g W of %g", got, want);
     }
     lmb_status status = lmb_render_begin(&render, &steps.frame);
+    plans_places(t);
     int rises = 0, falls = 0;
     float before = 0.0f;
     while (status == LMB_OK || status == LMB_MORE) {
