@@ -8,6 +8,15 @@ printf '# eye, target, degrees\n0 0 5 0 0 0 40\n\n3 2 4 0 0 0 40\n' >cameras.txt
 status 0 relief bake pit.obj -o pit.lmr --simple box.obj --size 32
 check "relief bake prints when the mesh is worth more" holds 'the mesh is the faster and exact: draw that' out.txt
 check "relief bake tells what it saw" grep -q 'as 12, 26 views of 32 x 32, .* bytes' out.txt
+check "a small model has no mesh of fewer triangles" lacks '60000 triangles' out.txt
+# A wavy sheet of 65,522 triangles, which are more than those of the mesh that a relief competes with.
+awk 'BEGIN { for (j = 0; j < 182; ++j) for (i = 0; i < 182; ++i) print "v", i / 91 - 1, 0.1 * sin(i / 9) * cos(j / 7), j / 91 - 1
+    for (j = 0; j < 181; ++j) for (i = 0; i < 181; ++i) { a = 182 * j + i + 1; print "f", a, a + 182, a + 1; print "f", a + 1, a + 182, a + 183 } }' >sheet.obj
+status 0 relief bake sheet.obj -o sheet.lmr --views 6 --size 32 --triangles 200
+check "relief bake measures the relief" grep -q '^the relief  *[0-9.]*  *[0-9.]*  *[0-9.]*  *0.[0-9]*$' out.txt
+check "and a mesh of 60,000 triangles" grep -q '^the model as 60000 triangles  *[0-9.]*  *[0-9.]*  *[0-9.]*  *[0-9.]*$' out.txt
+check "and the model" grep -q "^the model's 65522 triangles  *[0-9.]*  *[0-9.]*  *exact  *[0-9.]*$" out.txt
+check "and names the way to draw" grep -q '^the \(mesh\|relief\).* is the faster' out.txt
 bit pit.lmr 3000 bit.lmr
 status 1 relief render bit.lmr -o bad.png
 said "bit.lmr: a damaged .lmr file"

@@ -1,4 +1,5 @@
 /* verb_relief_bake.c: `lambent relief bake`: a complex model -> views and a simple model, in one file. */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -74,7 +75,9 @@ static const option_table table = {
              "relief bake --frame PREFIX [--frame PREFIX ...] -o OUT.lmr [--block M] [--packed]",
     .about = "Makes views of a complex model, for drawing it as a simple one that carries its surface. Meshes "
              "without normals are flat-shaded, as in `lambent render`. Prints how much of the surface no view sees: "
-             "the simple model's surface fills that part.",
+             "the simple model's surface fills that part. Also prints time, error and bytes of a picture by the "
+             "relief, by the model's mesh and by 60,000 of its triangles, because these meshes are often the better "
+             "choice.",
     .part = {rows},
     .examples = "  a tent and its relief:\n"
                 "    printf 'v %s\\n' '-1 0 -1' '1 0 -1' '0 0 1' '0 1 0' >tent.obj\n"
@@ -258,70 +261,142 @@ static void tell(const work *w, const options *o, const relief_coverage *c)
            100.0 * c->slanted);
 }
 
-/* Draws a picture a few times. Returns the shortest processor time, s; `out` holds the last picture. < 0: `r` is
- * set. */
-static double shoot(relief_frame *out, const relief_shot *shot, report *r)
+/* --- relief or mesh ----------------------------------------------------------------------------------------------- */
+
+enum { WORTH_SIDE = 512, WORTH_MAP = 1024 };
+enum { FEW_TRIANGLES = 60000 }; /* of the simplified mesh that a relief competes with */
+#define LEAST_GAIN_DB 0.5       /* smaller differences of two pictures count as none */
+
+static const lmb_light worth_sun = {
+    {0, 0, 0}, {-0.45f, -0.8f, -0.3968627f}, {3.0f, 2.9f, 2.7f}, 1.0f, 1.0f, LMB_LIGHT_DIRECTIONAL, 0, 0};
+
+/* A way to draw the model, measured. */
+typedef struct worth {
+    relief_frame frame; /* without shadows */
+    double plain_s, whole_s; /* processor time without and with the pass of the shadow map */
+    double bytes, db;        /* db: of light without cast shadows, against the model's mesh */
+} worth;
+
+/* Draws a picture three times without and with shadows; keeps the shortest times. */
+static int measure_worth(worth *out, const relief_shot *shot, report *r)
 {
-    double shortest = 1e30;
+    relief_shot shadowed = *shot;
+    out->plain_s = out->whole_s = 1e30;
+    shadowed.shadow_map = WORTH_MAP;
     for (int i = 0; i < 3; ++i) {
-        if (i > 0) {
-            relief_frame_free(out);
+        relief_frame f;
+        if (!relief_shoot(&f, &shadowed, r)) {
+            return 0;
         }
-        if (!relief_shoot(out, shot, r)) {
-            return -1.0;
+        out->whole_s = fmin(out->whole_s, f.light_s + f.draw_s + f.band_s);
+        relief_frame_free(&f);
+        relief_frame_free(&out->frame);
+        if (!relief_shoot(&out->frame, shot, r)) {
+            return 0;
         }
-        const double s = out->draw_s + out->band_s;
-        shortest = s < shortest ? s : shortest;
+        out->plain_s = fmin(out->plain_s, out->frame.draw_s + out->frame.band_s);
     }
-    return shortest;
+    return 1;
 }
 
 static double mesh_bytes(const triangle_mesh *m) { return 20.0 * m->vertex_count + 12.0 * m->triangle_count; }
 
-/* Reports whether the relief is worthwhile: draws a picture from between the views, and one with the model's
- * triangles. */
+/* Measures the model simplified to FEW_TRIANGLES. */
+static int measure_few(worth *out, const relief_shot *shot, const triangle_mesh *mesh, report *r)
+{
+    triangle_mesh few;
+    relief_scene drawn;
+    relief_shot by_few = *shot;
+    simplify_facts facts;
+    if (!simplify_mesh(&few, mesh, FEW_TRIANGLES, SIMPLIFY_NEAR, &facts, r)) {
+        return 0;
+    }
+    int ok = relief_scene_of(&drawn, &few, r);
+    if (ok) {
+        by_few.scene = &drawn.scene;
+        ok = measure_worth(out, &by_few, r);
+        relief_scene_free(&drawn);
+    }
+    out->bytes = mesh_bytes(&few);
+    triangle_mesh_free(&few);
+    return ok;
+}
+
+static void tell_way(const char *name, const worth *of)
+{
+    char db[32] = "exact";
+    if (of->db >= 0.0) {
+        snprintf(db, sizeof db, "%.1f", of->db);
+    }
+    report_say("%-32s %8.1f %13.1f %8s %8.2f\n", name, 1e3 * of->plain_s, 1e3 * of->whole_s, db, of->bytes / 1048576.0);
+}
+
+/* Returns the sentence that names the way to draw. `few`: NULL if the model has no more triangles. A mesh of fewer
+ * triangles that is no faster than the relief does not count. */
+static const char *worth_verdict(const worth *relief, const worth *mesh, const worth *few)
+{
+    if (mesh->whole_s <= relief->whole_s) {
+        return "the mesh is the faster and exact: draw that";
+    }
+    if (few == NULL || few->whole_s > relief->whole_s) {
+        return "the relief is the faster: draw that";
+    }
+    return few->db > relief->db - LEAST_GAIN_DB
+               ? "the mesh of 60,000 triangles is the faster and as near to the model: draw that"
+               : "the mesh of 60,000 triangles is the faster, the relief nearer to the model";
+}
+
+static void tell_ways(const worth *relief, const worth *mesh, const worth *few, uint32_t triangles)
+{
+    char name[64];
+    report_say("a picture of %d x %d, ms          without shadows  with them       dB      MiB\n", (int)WORTH_SIDE,
+               (int)WORTH_SIDE);
+    tell_way("the relief", relief);
+    if (few != NULL) {
+        tell_way("the model as 60000 triangles", few);
+    }
+    snprintf(name, sizeof name, "the model's %u triangles", (unsigned)triangles);
+    tell_way(name, mesh);
+    report_say("%s\n", worth_verdict(relief, mesh, few));
+}
+
+/* Prints whether the relief is worthwhile: draws a picture from between the views with the relief, with the model's
+ * triangles, and with at most FEW_TRIANGLES of them. */
 static int tell_worth(const work *w, report *r)
 {
-    enum { SIDE = 512 };
-    static const lmb_light sun = {
-        {0, 0, 0}, {-0.45f, -0.8f, -0.3968627f}, {3.0f, 2.9f, 2.7f}, 1.0f, 1.0f, LMB_LIGHT_DIRECTIONAL, 0, 0};
     lmb_relief relief;
     relief_shot shot;
-    relief_frame by_relief, by_mesh;
+    relief_figures e = {.psnr_db = 0.0};
+    worth by_relief = {.bytes = (double)w->file.size}, by_mesh = {.bytes = mesh_bytes(&w->mesh), .db = -1.0},
+          by_few = {.bytes = 0.0};
+    const int is_large = w->mesh.triangle_count > FEW_TRIANGLES;
     memset(&shot, 0, sizeof shot);
     if (lmb_relief_open(&relief, w->file.data, w->file.size) != LMB_OK) {
         return 1; /* more views than this build draws */
     }
     shot.kernels = lmb_kernels_pick();
-    shot.view = relief_fit(&w->mesh, (lmb_vec3){0.53f, 0.37f, 0.7628236f}, SIDE);
-    shot.light = &sun;
+    shot.view = relief_fit(&w->mesh, (lmb_vec3){0.53f, 0.37f, 0.7628236f}, WORTH_SIDE);
+    shot.light = &worth_sun;
     shot.ambient = 1.0f;
     shot.relief = &relief;
-    const double relief_s = shoot(&by_relief, &shot, r);
-    if (relief_s < 0.0) {
-        return 0;
-    }
+    int ok = measure_worth(&by_relief, &shot, r);
     shot.relief = NULL;
     shot.scene = &w->loaded.scene;
-    const double mesh_s = shoot(&by_mesh, &shot, r);
-    relief_figures e;
-    const int ok = mesh_s >= 0.0 && relief_measure(&e, &by_relief, &by_mesh, 1.0, r);
+    ok = ok && measure_worth(&by_mesh, &shot, r) && relief_measure(&e, &by_relief.frame, &by_mesh.frame, 1.0, r);
+    by_relief.db = e.psnr_db;
+    ok = ok && (!is_large || (measure_few(&by_few, &shot, &w->mesh, r) &&
+                              relief_measure(&e, &by_few.frame, &by_mesh.frame, 1.0, r)));
+    by_few.db = e.psnr_db;
     if (ok) {
-        report_say("a picture of %d x %d without shadows: relief %.1f ms, the model's mesh %.1f ms; %.1f dB apart; "
-                   "%.1f times the "
-                   "bytes of the mesh\n",
-                   (int)SIDE, (int)SIDE, 1e3 * relief_s, 1e3 * mesh_s, e.psnr_db,
-                   (double)w->file.size / mesh_bytes(&w->mesh));
-        report_say("%s\n", relief_s < mesh_s
-                               ? "the relief is the faster; a mesh simplified to 60,000 triangles may still be as good"
-                               : "the mesh is the faster and exact: draw that");
+        tell_ways(&by_relief, &by_mesh, is_large ? &by_few : NULL, w->mesh.triangle_count);
     }
-    relief_frame_free(&by_relief);
-    if (mesh_s >= 0.0) {
-        relief_frame_free(&by_mesh);
-    }
+    relief_frame_free(&by_relief.frame);
+    relief_frame_free(&by_mesh.frame);
+    relief_frame_free(&by_few.frame);
     return ok;
 }
+
+/* --- models ------------------------------------------------------------------------------------------------------- */
 
 static int bake(work *w, const options *o, report *r)
 {
