@@ -34,6 +34,32 @@ static void shadows(const stage *s, lmb_light light)
     relief_frame_free(&want);
 }
 
+/* P7: a small picture has a small shadow map, and nearly the same pixels are lit as with a fine one. */
+static void small_picture(const stage *s)
+{
+    enum { SMALL = 16 };
+    const lmb_light light = sun(vec3(-0.6f, -0.64f, -0.48f));
+    int same = 0, own = 0;
+    const lmb_view large = look(vec3(0.0f, 2.0f, 5.0f), vec3(0, 0, 0), 40.0, FRAME),
+                   small = look(vec3(0.0f, 2.0f, 5.0f), vec3(0, 0, 0), 40.0, SMALL);
+    relief_shot shot = shot_of(s, &large);
+    shot.light = &light;
+    shot.shadow_map = 512;
+    relief_frame fine = shoot(&shot);
+    shot.view = small;
+    relief_frame got = shoot(&shot);
+    CHECK_MSG(got.map_side * 2 < fine.map_side && got.map_side >= SMALL, "maps of %d and %d", (int)got.map_side,
+              (int)fine.map_side);
+    for (int i = 0; i < SMALL * SMALL; ++i) {
+        const int at = (i / SMALL * FRAME + i % SMALL) * (FRAME / SMALL) + (FRAME + 1) * (FRAME / SMALL / 2);
+        own += got.depth[i] > 0.0f && fine.depth[at] > 0.0f;
+        same += got.depth[i] > 0.0f && fine.depth[at] > 0.0f && got.lit[i] == fine.lit[at];
+    }
+    CHECK_MSG(own > 50 && same > own * 95 / 100, "%d of %d the same", same, own);
+    relief_frame_free(&fine);
+    relief_frame_free(&got);
+}
+
 /* Light that a floor reflects up arrives on a relief as on the sphere. */
 static void receives_bounce(const stage *s)
 {
@@ -162,6 +188,7 @@ void test_relief_light(void)
     last_texel();
     stage *s = stage_make(LMB_RELIEF_FULL, 0);
     receives_bounce(s);
+    small_picture(s);
     shadows(s, sun(vec3(0.2f, -1.0f, -0.1f)));
     shadows(s, point_light(vec3(-0.8f, 4.0f, 0.4f)));
     shadows(s, point_light(vec3(4.0f, 0.7f, 0.4f)));

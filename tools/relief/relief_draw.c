@@ -74,19 +74,33 @@ static int take_layer(work *w, layer *l, report *r)
 
 /* --- the shadow map ---------------------------------------------------------------------------------------------- */
 
-#define FINEST 0.75f /* of a view's texel */
+#define FINEST        0.75f /* of a view's texel */
+#define FINEST_PIXELS 0.5f  /* of a pixel at the nearest point of the bounds */
+
+/* Side of a pixel where the eye is nearest to the bounds, m. */
+static float nearest_pixel(const lmb_view *v, const lmb_scene *s)
+{
+    const lmb_vec3 near = max3(s->bounds_min, min3(s->bounds_max, v->eye));
+    const float side = 2.0f * maxf(v->half_width / (float)v->frame_width, v->half_height / (float)v->frame_height);
+    return v->kind == LMB_PERSPECTIVE ? side * length3(sub3(near, v->eye)) : side;
+}
 
 /* Texels per side of a layer's map. A relief's map need not be much finer than the coarsest texels of the views,
- * because the views show no finer detail, and the cost is proportional to warped texels. */
+ * because the views show no finer detail, nor than the picture's pixels, and the cost is proportional to warped
+ * texels. */
 static int32_t map_side(const work *w, const layer *l, const lmb_scene *bounds)
 {
     const float across = length3(sub3(bounds->bounds_max, bounds->bounds_min));
     float texel = 0.0f;
-    for (int32_t i = 0; l == &w->relief && i < w->shot->relief->views; ++i) {
+    if (l != &w->relief) {
+        return w->shot->shadow_map;
+    }
+    for (int32_t i = 0; i < w->shot->relief->views; ++i) {
         const lmb_relief_view *v = &w->shot->relief->view[i];
         texel = maxf(texel, v->perspective ? v->texel * v->near_m : v->texel);
     }
-    const float wanted = texel > 0.0f ? ceilf(across / (8.0f * FINEST * texel)) * 8.0f : 1e9f;
+    texel = maxf(FINEST * texel, FINEST_PIXELS * nearest_pixel(&w->shot->view, bounds));
+    const float wanted = texel > 0.0f ? ceilf(across / (8.0f * texel)) * 8.0f : 1e9f;
     return wanted < (float)w->shot->shadow_map ? (int32_t)fmaxf(wanted, 8.0f) : w->shot->shadow_map;
 }
 
@@ -96,6 +110,7 @@ static int draw_map(work *w, layer *l, const lmb_scene *bounds, report *r)
     const relief_shot *s = w->shot;
     const int32_t side = map_side(w, l, bounds);
     const size_t bytes = lmb_shadow_map_bytes(lmb_shadow_map_faces(s->light, bounds), side, LMB_ID32);
+    w->out->map_side = side;
     l->map_memory = take(w, bytes, r);
     if (l->map_memory == NULL) {
         return 0;

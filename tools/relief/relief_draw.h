@@ -30,6 +30,7 @@ typedef struct relief_frame {
     float *open;                   /* radiance without shadows */
     uint8_t *lit;                  /* 1: some direct light arrives */
     lmb_relief_stats stats;
+    int32_t map_side;              /* texels per side of the shadow map, of the relief's if there is one; 0: none */
     double light_s, draw_s, band_s; /* processor time of all samples: the shadow map; triangles; attributes and light */
     size_t bytes;                   /* memory used to draw it, without models */
 } relief_frame;

@@ -43,7 +43,8 @@ static const option_row rows[] = {
     {.name = "--light", .kind = OPTION_LIGHT, AT(light), .counts = offsetof(relief_options, has_light),
      .help = HELP("KIND is spot, point or sun (default: a sun from the upper right)")},
     {.name = "--shadow-map", .value = "N", .kind = OPTION_MULTIPLE_OF_8, AT(shadow_map), .low = 0, .high = LMB_MAX_SIDE,
-     .help = HELP("texels per side of the light's shadow map (default 1024); 0: no shadows")},
+     .help = HELP("texels per side of the light's shadow map, at most (default 1024); the relief's map has no more "
+             "than its views or two per pixel show. 0: no shadows")},
     {.name = "--ambient", .value = "E", .kind = OPTION_NUMBER, AT(ambient), .low = 0, .high = 1e6,
      .help = HELP("irradiance from everywhere, W/m2 (default 0.3)")},
     {.name = "--with", .value = "SCENE", .kind = OPTION_TEXT, AT(with), .file = OPTION_READS,
