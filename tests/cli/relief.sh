@@ -82,6 +82,7 @@ check "a number is found after another %" test -s 50%_01.pfm
 status 1 relief render pit.lmr --path keys.txt --eye 1,2,3 --target 0,0,0 -o bad.png
 said "keys.txt:2: the camera goes and looks by these keys; leave --eye and --target out"
 printf '0 camera 1,2,5\n11 camera 2,2,5\n' >keys.txt
+printf '0 camera 1,2,5 0,0,0\n1 camera 2,2,5 0,0,0\n' >looks.txt
 status 0 relief render pit.lmr --path keys.txt --eye 1,2,3 --target 0,0,0 --frames 1 --size 16x16 -o looks.pfm
 status 1 relief render pit.lmr --path keys.txt --fps 1e5 -o bad.png
 said "keys.txt: 1100001 pictures to its last key, of which 1000000 can be drawn"
@@ -114,6 +115,35 @@ status 2 relief render pit.lmr
 status 2 relief render pit.lmr -o bad.png --pick q
 status 2 relief render pit.lmr -o bad.png --eye 1,2,3
 status 2 relief render pit.lmr -o bad.png --shadow-map 12
+# In a world a box as a relief has the light, shadow, ground and background of `lambent render`.
+eye="--eye 3,2,4 --target 0,0,0 --size 80x60"
+{ printf 'PF\n16 8\n-1.0\n'; repeated 192 "$half"; repeated 192 "$two"; } >dusk.pfm
+for world in sky dusk.pfm; do
+    for ground in auto none; do
+        status 0 relief render box.lmr --world $world --ground $ground --samples 1 $eye -o as-relief.pfm
+        status 0 render box.obj --world $world --ground $ground --show direct --samples 1 $eye -o as-mesh.pfm
+        status 0 compare as-relief.pfm as-mesh.pfm
+        check "a box in the world $world, ground $ground" sh -c 'awk "/^trim/ { exit !(\$2 < 0.03 && \$8 < 0.002) }" out.txt'
+    done
+done
+status 0 relief render box.lmr --world sky --with floor.obj $eye --samples 1 -o in.pfm
+status 0 relief render box.lmr --world none --with floor.obj $eye --samples 1 -o out.pfm
+check "a sky lights other geometry" differ in.pfm out.pfm
+status 0 relief render box.lmr --world dusk.pfm --path looks.txt --frames 1 --samples 1 --size 80x60 -o tour.pfm
+status 0 relief render box.lmr --world dusk.pfm --eye 1,2,5 --target 0,0,0 --samples 1 --size 80x60 -o single.pfm
+check "a path has the world" cmp -s tour-0000.pfm single.pfm
+status 0 relief render box.lmr --background 336699 $eye -o colour.ppm
+check "a background's colour" test "$(tail -c 3 colour.ppm | od -An -tx1 | tr -d ' ')" = 336699
+status 0 relief render box.lmr --background transparent $eye -o clear.png
+check "a transparent background has alpha" test "$(od -An -tu1 -j25 -N1 clear.png | tr -d ' ')" = 6
+status 1 relief render box.lmr --world nowhere.hdr -o bad.png
+said "nowhere.hdr: "
+status 2 relief render box.lmr --world sky --compare box.obj -o bad.png
+said "leave --world out"
+status 2 relief render box.lmr --background 33669 -o bad.png
+status 2 relief render box.lmr --background transparent -o bad.ppm
+status 2 relief render box.lmr --background 336699 -o bad.pfm
+status 2 relief render box.lmr --background 336699 --show depth -o bad.png
 status 0 relief --help
 status 0 relief bake --help
 status 0 relief render --help

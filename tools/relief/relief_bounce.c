@@ -114,9 +114,11 @@ int relief_bounce_make(relief_bounce *out, const lmb_kernels *kernels, const lmb
 {
     memset(out, 0, sizeof *out);
     int ok = join(out, plain, simple, r);
-    out->cut = ok ? calloc(1, sizeof *out->cut) : NULL;
+    out->cut = ok && size > 0 ? calloc(1, sizeof *out->cut) : NULL;
     if (ok) {
-        lmb_status status = out->cut != NULL ? find_points(out, kernels, light, size) : LMB_ERR_CAPACITY;
+        lmb_status status = size == 0          ? LMB_OK
+                            : out->cut != NULL ? find_points(out, kernels, light, size)
+                                               : LMB_ERR_CAPACITY;
         if (status == LMB_OK) {
             status = make_bvh(&out->plain, out, 2, plain);
         }

@@ -20,10 +20,10 @@ typedef struct relief_bounce {
     void *memory[4];
 } relief_bounce;
 
-/* relief_bounce_make: computes the first points of one light.
+/* relief_bounce_make: computes the first points of one light, and the occluders.
  *
  *   plain, simple  ordinary geometry, and a relief's simple model; either may be NULL. Keep both while you use `out`.
- *   size           texels per side of the shadow map: a power of two
+ *   size           texels per side of the shadow map: a power of two; 0: only the occluders, without `light`
  * Returns 1, or 0 with `r` set and nothing allocated. */
 int relief_bounce_make(relief_bounce *out, const lmb_kernels *kernels, const lmb_scene *plain, const lmb_scene *simple,
                        const lmb_light *light, int32_t size, report *r);

@@ -11,6 +11,7 @@
 #include "../common/fvec.h"
 #include "../common/progress.h"
 #include "relief_bounce.h"
+#include "relief_sky.h"
 
 /* One kind of geometry, with the target for resolving pixels and the shadow map. */
 typedef struct layer {
@@ -28,6 +29,7 @@ typedef struct pen {
     lmb_tile tile, other;
     lmb_irradiance direct, open, indirect;
     relief_bounce bounce; /* the work's, with a separate cut */
+    relief_sky_scratch sky;
     lmb_radiance radiance, open_radiance;
     lmb_relief_stats stats;
     lmb_status failed;
@@ -88,7 +90,7 @@ static float nearest_pixel(const lmb_view *v, const lmb_scene *s)
 /* Texels per side of a layer's map. A relief's map need not be much finer than the coarsest texels of the views,
  * because the views show no finer detail, nor than the picture's pixels, and the cost is proportional to warped
  * texels. */
-static int32_t map_side(const work *w, const layer *l, const lmb_scene *bounds)
+static int32_t map_side(const work *w, const layer *l, const lmb_scene *bounds, const lmb_scene *all)
 {
     const float across = length3(sub3(bounds->bounds_max, bounds->bounds_min));
     float texel = 0.0f;
@@ -99,16 +101,16 @@ static int32_t map_side(const work *w, const layer *l, const lmb_scene *bounds)
         const lmb_relief_view *v = &w->shot->relief->view[i];
         texel = maxf(texel, v->perspective ? v->texel * v->near_m : v->texel);
     }
-    texel = maxf(FINEST * texel, FINEST_PIXELS * nearest_pixel(&w->shot->view, bounds));
+    texel = maxf(FINEST * texel, FINEST_PIXELS * nearest_pixel(&w->shot->view, all));
     const float wanted = texel > 0.0f ? ceilf(across / (8.0f * texel)) * 8.0f : 1e9f;
     return wanted < (float)w->shot->shadow_map ? (int32_t)fmaxf(wanted, 8.0f) : w->shot->shadow_map;
 }
 
-/* Both maps are fitted to the bounds of everything. */
-static int draw_map(work *w, layer *l, const lmb_scene *bounds, report *r)
+/* The map is fitted to `bounds`; `all` has receivers too. */
+static int draw_map(work *w, layer *l, const lmb_scene *bounds, const lmb_scene *all, report *r)
 {
     const relief_shot *s = w->shot;
-    const int32_t side = map_side(w, l, bounds);
+    const int32_t side = map_side(w, l, bounds, all);
     const size_t bytes = lmb_shadow_map_bytes(lmb_shadow_map_faces(s->light, bounds), side, LMB_ID32);
     w->out->map_side = side;
     l->map_memory = take(w, bytes, r);
@@ -127,15 +129,17 @@ static int draw_map(work *w, layer *l, const lmb_scene *bounds, report *r)
     return status == LMB_OK || report_fail(r, "--light: its map cannot be drawn: %s", lmb_status_name(status));
 }
 
+/* A sun's map of the relief is fitted to the relief: what lies beside it in the map is lit. */
 static int draw_maps(work *w, report *r)
 {
     lmb_scene bounds = w->plain.scene != NULL ? *w->plain.scene : w->simple;
+    const int is_sun = w->shot->light->kind == LMB_LIGHT_DIRECTIONAL;
     if (w->plain.scene != NULL && w->relief.scene != NULL) {
         bounds.bounds_min = min3(bounds.bounds_min, w->simple.bounds_min);
         bounds.bounds_max = max3(bounds.bounds_max, w->simple.bounds_max);
     }
-    return (w->plain.scene == NULL || draw_map(w, &w->plain, &bounds, r)) &&
-           (w->relief.scene == NULL || draw_map(w, &w->relief, &bounds, r));
+    return (w->plain.scene == NULL || draw_map(w, &w->plain, &bounds, &bounds, r)) &&
+           (w->relief.scene == NULL || draw_map(w, &w->relief, is_sun ? &w->simple : &bounds, &bounds, r));
 }
 
 /* --- a tile ------------------------------------------------------------------------------------------------------- */
@@ -170,6 +174,9 @@ static lmb_status light_tile(pen *w)
     const lmb_scene *scene = w->of->plain.scene != NULL ? w->of->plain.scene : w->of->relief.scene;
     memset(&w->direct, 0, sizeof w->direct);
     memset(&w->open, 0, sizeof w->open);
+    if (s->light == NULL) {
+        return LMB_OK;
+    }
     lmb_status status = lmb_direct_tile(&w->open, s->kernels, &w->tile, &w->of->view, scene, s->light, NULL);
     if (status != LMB_OK || map == NULL) {
         w->direct = w->open;
@@ -187,7 +194,7 @@ static lmb_status light_tile(pen *w)
     return status;
 }
 
-/* Adds bounced and ambient light. */
+/* Adds bounced and ambient light, and the sky's. */
 static lmb_status bounce_tile(pen *w)
 {
     uint64_t of_relief = 0;
@@ -198,14 +205,31 @@ static lmb_status bounce_tile(pen *w)
             w->indirect.rgb[c][k] = w->of->shot->ambient;
         }
     }
-    return w->of->shot->bounce == 0
-               ? LMB_OK
-               : relief_bounce_tile(&w->indirect, &w->bounce, w->of->shot->kernels, &w->tile, of_relief);
+    lmb_status status = LMB_OK;
+    if (w->of->shot->bounce > 0 && w->of->shot->light != NULL) {
+        status = relief_bounce_tile(&w->indirect, &w->bounce, w->of->shot->kernels, &w->tile, of_relief);
+    }
+    if (status == LMB_OK && w->of->shot->sky != NULL) {
+        status = relief_sky_tile(&w->indirect, &w->sky, w->of->shot->sky, w->of->shot->kernels, &w->tile, of_relief,
+                                 &w->bounce.plain, &w->bounce.both);
+    }
+    return status;
+}
+
+/* Adds the sky to an empty pixel. */
+static void store_behind(pen *w, int32_t x, int32_t y, float rgb[3])
+{
+    float behind[3];
+    relief_sky_behind(behind, w->of->shot->sky, &w->of->view, x, y);
+    for (int c = 0; c < 3; ++c) {
+        rgb[c] += behind[c] / (float)w->of->samples;
+    }
 }
 
 static void store(pen *w)
 {
     relief_frame *f = w->of->out;
+    const int has_sky = w->of->shot->sky != NULL && w->of->shot->shows_sky;
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         const int32_t x = w->tile.x + k % LMB_TILE, y = w->tile.y + k / LMB_TILE;
         if (x >= f->width || y >= f->height) {
@@ -220,23 +244,28 @@ static void store(pen *w)
             f->rgb[3 * at + c] += w->radiance.rgb[c][k] / (float)w->of->samples;
             f->open[3 * at + c] = w->open_radiance.rgb[c][k];
         }
+        f->cover[at] += w->tile.id[k] != 0 ? 1.0f / (float)w->of->samples : 0.0f;
+        if (has_sky && w->tile.id[k] == 0) {
+            store_behind(w, x, y, f->rgb + 3 * at);
+        }
     }
 }
 
 static lmb_status draw_tile(pen *w, int32_t x, int32_t y)
 {
+    const relief_shot *s = w->of->shot;
     lmb_status status = resolve(w, x, y);
-    if (status == LMB_OK && w->of->shot->light != NULL) {
+    if (status == LMB_OK && (s->light != NULL || s->sky != NULL)) {
         status = light_tile(w);
-    }
-    if (status == LMB_OK && w->of->shot->light != NULL) {
-        status = bounce_tile(w);
-    }
-    if (status == LMB_OK && w->of->shot->light != NULL) {
-        status = lmb_compose_tile(&w->radiance, w->of->shot->kernels, &w->tile, &w->direct, &w->indirect);
-    }
-    if (status == LMB_OK && w->of->shot->light != NULL) {
-        status = lmb_compose_tile(&w->open_radiance, w->of->shot->kernels, &w->tile, &w->open, &w->indirect);
+        if (status == LMB_OK) {
+            status = bounce_tile(w);
+        }
+        if (status == LMB_OK) {
+            status = lmb_compose_tile(&w->radiance, s->kernels, &w->tile, &w->direct, &w->indirect);
+        }
+        if (status == LMB_OK) {
+            status = lmb_compose_tile(&w->open_radiance, s->kernels, &w->tile, &w->open, &w->indirect);
+        }
     }
     store(w);
     return status;
@@ -334,9 +363,10 @@ static int draw(work *w, report *r)
     if (w->shot->light != NULL && w->shot->shadow_map > 0 && !draw_maps(w, r)) {
         return 0;
     }
-    if (w->shot->light != NULL && w->shot->bounce > 0 &&
-        !relief_bounce_make(&w->bounce, w->shot->kernels, w->plain.scene, w->relief.scene, w->shot->light,
-                            w->shot->bounce, r)) {
+    const int32_t bounce = w->shot->light != NULL ? w->shot->bounce : 0;
+    const int occludes = w->shot->sky != NULL && w->plain.scene != NULL && w->relief.scene != NULL;
+    if ((bounce > 0 || occludes) && !relief_bounce_make(&w->bounce, w->shot->kernels, w->plain.scene, w->relief.scene,
+                                                        w->shot->light, bounce, r)) {
         return 0;
     }
     if (!take_pens(w, r)) {
@@ -363,6 +393,7 @@ static int begin(work *w, report *r)
     f->albedo = take(w, 3 * pixels * sizeof(float), r);
     f->rgb = take(w, 3 * pixels * sizeof(float), r);
     f->open = take(w, 3 * pixels * sizeof(float), r);
+    f->cover = take(w, pixels * sizeof(float), r);
     f->lit = take(w, pixels, r);
     w->threads = s->threads > 1 ? s->threads : 1;
     w->pens = take(w, (size_t)w->threads * sizeof *w->pens, r);
@@ -416,7 +447,8 @@ void relief_frame_free(relief_frame *f)
     free(f->albedo);
     free(f->rgb);
     free(f->open);
+    free(f->cover);
     free(f->lit);
-    f->depth = f->normal = f->albedo = f->rgb = f->open = NULL;
+    f->depth = f->normal = f->albedo = f->rgb = f->open = f->cover = NULL;
     f->lit = NULL;
 }

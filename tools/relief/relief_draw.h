@@ -6,6 +6,8 @@
 
 #include "../common/report.h"
 
+struct relief_sky; /* relief_sky.h */
+
 /* The contents and settings of a picture. */
 typedef struct relief_shot {
     const lmb_kernels *kernels;
@@ -13,7 +15,9 @@ typedef struct relief_shot {
     const lmb_relief *relief; /* NULL: none */
     const lmb_scene *scene;   /* ordinary geometry; NULL: none */
     lmb_relief_how how;
-    const lmb_light *light;   /* NULL: only surface attributes */
+    const lmb_light *light;   /* NULL: without `sky` only surface attributes */
+    const struct relief_sky *sky; /* NULL: none */
+    int shows_sky;            /* 1: behind all surfaces */
     int32_t shadow_map;        /* texels per side; 0: no shadow */
     float ambient;            /* irradiance from everywhere, W/m2 */
     int threads;              /* that draw the picture; 0: one */
@@ -28,6 +32,7 @@ typedef struct relief_frame {
     float *depth;                  /* m along the view's axis; 0: nothing */
     float *normal, *albedo, *rgb;  /* 3 floats per pixel; rgb: radiance */
     float *open;                   /* radiance without shadows */
+    float *cover;                  /* share of the samples with a surface */
     uint8_t *lit;                  /* 1: some direct light arrives */
     lmb_relief_stats stats;
     int32_t map_side;              /* texels per side of the shadow map, of the relief's if there is one; 0: none */

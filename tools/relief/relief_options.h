@@ -8,6 +8,7 @@
 #include "../common/options.h"
 #include "../common/view_options.h"
 #include "../model/model.h"
+#include "../render/render_options.h"
 
 /* How a relief is baked: int32_t size, triangles, is_packed of a struct of the type. */
 #define RELIEF_OPTIONS_BAKE(type)                                                                            \
@@ -41,7 +42,10 @@ typedef struct relief_options {
     int32_t shadow_map, show, samples;
     int32_t frames; /* of the path; 0: to the end */
     float fps;      /* 0: 30 */
-    float ambient, exposure_ev; /* NaN: chosen by the picture */
+    const char *world; /* sky, none, or a file; NULL: none */
+    int32_t no_ground;
+    render_background background;
+    float ambient, exposure_ev; /* ambient NaN: by default; exposure NaN: chosen by the picture */
     const lmb_kernels *kernels;
     int32_t threads;
 } relief_options;

@@ -132,11 +132,11 @@ int relief_path_open(key_path *out, const relief_options *o, const lmb_light *li
     return 1;
 }
 
-int relief_path_leads(const key_path *path)
+int relief_path_leads(const key_path *path, int what)
 {
     int leads = 0;
     for (uint32_t t = 0; t < path->track_count; ++t) {
-        leads |= path->track[t].what == KEY_CAMERA;
+        leads |= path->track[t].what == what;
     }
     return leads;
 }
@@ -192,6 +192,5 @@ int relief_along(relief_options *o, const key_path *path, relief_shot *shot, lmb
 {
     tour w = {o, shot, light, *light, shot->view, simple, path};
     int32_t frames;
-    shot->light = light;
     return count_frames(&frames, o, path, r) && can_draw(&w, frames, r) && draw(&w, frames, write, r);
 }

@@ -12,9 +12,9 @@ extern const option_row relief_path_rows[];
 int relief_path_check(const relief_options *o, report *r);
 
 /* relief_path_open: reads the path, if there is one; `light` is the light without it. Returns 1, or 0 with `r` set;
- * call key_path_free in either case. relief_path_leads: does the path move the camera? */
+ * call key_path_free in either case. relief_path_leads: does the path move KEY_CAMERA or KEY_LIGHT? */
 int relief_path_open(key_path *out, const relief_options *o, const lmb_light *light, report *r);
-int relief_path_leads(const key_path *path);
+int relief_path_leads(const key_path *path, int what);
 
 /* Writes one picture. Returns 1, or 0 with `r` set. */
 typedef int relief_write(relief_options *o, relief_frame *f, const char *path, report *r);

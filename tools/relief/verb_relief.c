@@ -12,18 +12,24 @@
 #include "../common/view_frame.h"
 #include "../model/model.h"
 #include "../picture/picture.h"
+#include "../render/background.h"
 #include "relief_compare.h"
 #include "relief_options.h"
 #include "relief_path.h"
+#include "relief_sky.h"
 
 enum { BOUNCE_MAP = 256 }; /* texels per side */
-enum { SHOW_FULL, SHOW_DEPTH, SHOW_NORMAL, SHOW_ALBEDO, SHOW_LIT };
+#define AMBIENT 0.3f /* W/m2 */
+enum { PLANE_FULL, PLANE_DEPTH, PLANE_NORMAL, PLANE_ALBEDO, PLANE_LIT };
 
 /* --- command line ------------------------------------------------------------------------------------------------- */
 
 static const char *const picks[] = {"p", "eye-ray", NULL}; /* in the order of LMB_RELIEF_ */
 static const char *const samplings[] = {"bilinear", "nearest", NULL};
-static const char *const shows[] = {"full", "depth", "normal", "albedo", "lit", NULL}; /* in the order of SHOW_ */
+static const char *const shows[] = {"full", "depth", "normal", "albedo", "lit", NULL}; /* in the order of PLANE_ */
+
+static const char *const grounds[] = {"auto", "none", NULL};
+static const int32_t ground_values[] = {0, 1};
 
 #define AT(member) .at = offsetof(relief_options, member)
 
@@ -46,7 +52,18 @@ static const option_row rows[] = {
      .help = HELP("texels per side of the light's shadow map, at most (default 1024); the relief's map has no more "
              "than its views or two per pixel show. 0: no shadows")},
     {.name = "--ambient", .value = "E", .kind = OPTION_NUMBER, AT(ambient), .low = 0, .high = 1e6,
-     .help = HELP("irradiance from everywhere, W/m2 (default 0.3)")},
+     .help = HELP("irradiance from everywhere, W/m2 (default 0.3, with a --world 0)")},
+    {.name = "--world", .value = "FILE|sky|none", .kind = OPTION_TEXT, AT(world),
+     .help = HELP("surroundings that light the picture and are visible behind it: a clear sky with a sun, or an "
+             "environment map as in `lambent render` (default none). The world's sun replaces the default one. The "
+             "scene of --with and the ground have contact shadows of the sky's light, the relief itself has none")},
+    {.name = "--ground", .kind = OPTION_WORD, AT(no_ground), .words = grounds, .values = ground_values,
+     .help = HELP("auto (default): with a --world, put a grey disc below the relief, unless there is a --with or the "
+             "--background is a colour or transparent")},
+    {.name = "--background", .value = "RRGGBB|world|transparent", .kind = OPTION_OWN, AT(background),
+     .parse = render_option_background, .expects = RENDER_BACKGROUND_WANTS,
+     .help = HELP("shown where there is no surface: a colour, the world (default; black if there is none), or "
+             "transparent, for a PNG with alpha")},
     {.name = "--with", .value = "SCENE", .kind = OPTION_TEXT, AT(with), .file = OPTION_READS,
      .help = HELP("other geometry in the same picture: both shadow and hide each other")},
     OPTION_VERTEX_COLOURS_ROW(relief_options, choice.vertex_colours),
@@ -99,12 +116,27 @@ static const option_table both_table = {
                 "    lambent relief render tent.lmr --size 160x120 -o tent.png\n"),
 };
 
+static int has_world(const relief_options *o) { return o->world != NULL && strcmp(o->world, "none") != 0; }
+
+static int background_fits(const relief_options *o, report *r)
+{
+    const int format = picture_format(o->out);
+    if (o->background.kind != BACKGROUND_WORLD && o->show != PLANE_FULL) {
+        return report_fail(r, "--background: only pictures of light have one; use --show full");
+    }
+    if (o->background.kind == BACKGROUND_TRANSPARENT && format != PICTURE_PNG) {
+        return report_fail(r, "--background transparent: of the formats only PNG has alpha; name a .png");
+    }
+    return o->background.kind != BACKGROUND_COLOUR || !picture_is_linear(format) ||
+           report_fail(r, "--background: colours are a display's; name a .png or a .ppm");
+}
+
 static int parse(relief_options *o, int argc, char **argv, report *r)
 {
     memset(o, 0, sizeof *o);
     view_options_init(&o->view);
     o->shadow_map = 1024;
-    o->ambient = 0.3f;
+    o->ambient = NAN;
     o->kernels = lmb_kernels_pick();
     const int asked = options_parse(o, &table, argc, argv, r);
     if (asked != OPTIONS_RUN) {
@@ -119,6 +151,15 @@ static int parse(relief_options *o, int argc, char **argv, report *r)
     if (o->out == NULL) {
         return report_fail(r, "no output given; add -o FILE.png");
     }
+    if (has_world(o) && o->compare != NULL) {
+        return report_fail(r, "--compare is of pictures in the light of one source: leave --world out");
+    }
+    if (isnan(o->ambient)) {
+        o->ambient = has_world(o) ? 0.0f : AMBIENT;
+    }
+    if (!background_fits(o, r)) {
+        return OPTIONS_BAD;
+    }
     return relief_path_check(o, r) && view_options_check(&o->view, r) ? OPTIONS_RUN : OPTIONS_BAD;
 }
 
@@ -131,6 +172,7 @@ typedef struct work {
     model with, complex; /* complex: the model of --compare */
     lmb_light light; /* the given light, or the default sun */
     key_path path;
+    relief_sky sky;
 } work;
 
 static void work_free(work *w)
@@ -139,6 +181,7 @@ static void work_free(work *w)
     model_free(&w->with);
     model_free(&w->complex);
     key_path_free(&w->path);
+    relief_sky_free(&w->sky);
     free(w);
 }
 
@@ -176,7 +219,7 @@ static int choose_view(lmb_view *out, const work *w, relief_options *o, report *
 {
     lmb_view middle;
     const int is_quiet = o->view.is_quiet;
-    o->view.is_quiet |= relief_path_leads(&w->path); /* hides the note about the default camera, which is not used */
+    o->view.is_quiet |= relief_path_leads(&w->path, KEY_CAMERA); /* no note about a default camera */
     if (o->view.has_eye ? !view_look(&middle, &o->view, r) : !view_frame(&middle, &o->view, &w->simple, o->file, r)) {
         return 0;
     }
@@ -192,12 +235,12 @@ static int choose_view(lmb_view *out, const work *w, relief_options *o, report *
 static void show(relief_frame *f, int32_t what)
 {
     const size_t pixels = (size_t)f->width * (size_t)f->height;
-    for (size_t i = 0; i < pixels && what != SHOW_FULL; ++i) {
+    for (size_t i = 0; i < pixels && what != PLANE_FULL; ++i) {
         for (size_t c = 0; c < 3; ++c) {
             const size_t at = 3 * i + c;
-            f->rgb[at] = what == SHOW_ALBEDO   ? f->albedo[at]
-                         : what == SHOW_NORMAL ? (f->depth[i] > 0.0f ? 0.5f + 0.5f * f->normal[at] : 0.0f)
-                         : what == SHOW_DEPTH  ? f->depth[i]
+            f->rgb[at] = what == PLANE_ALBEDO   ? f->albedo[at]
+                         : what == PLANE_NORMAL ? (f->depth[i] > 0.0f ? 0.5f + 0.5f * f->normal[at] : 0.0f)
+                         : what == PLANE_DEPTH  ? f->depth[i]
                                                : (float)f->lit[i];
         }
     }
@@ -207,18 +250,36 @@ static void show(relief_frame *f, int32_t what)
 static int32_t samples_of(const relief_options *o)
 {
     const int is_linear = picture_is_linear(picture_format(o->out));
-    return o->show != SHOW_FULL || o->compare != NULL ? 1 : o->samples != 0 ? o->samples : is_linear ? 1 : 4;
+    return o->show != PLANE_FULL || o->compare != NULL ? 1 : o->samples != 0 ? o->samples : is_linear ? 1 : 4;
+}
+
+/* Light is dark behind surfaces; fills in a display colour, or transparency. */
+static int write_before(const relief_options *o, const relief_frame *f, image *linear, const char *path, report *r)
+{
+    file_bytes file = {NULL, 0};
+    if (o->background.kind == BACKGROUND_WORLD) {
+        return picture_write(path, linear, o->exposure_ev, PICTURE_CLIPPED, r);
+    }
+    if (o->background.kind == BACKGROUND_COLOUR) {
+        picture_expose(linear, o->exposure_ev, PICTURE_CLIPPED);
+        background_colour(linear, o->background.rgb, f->cover);
+        return picture_write(path, linear, 0.0f, PICTURE_CLIPPED, r);
+    }
+    const int ok = picture_encode_alpha(&file, linear, f->cover, o->exposure_ev, PICTURE_CLIPPED, r) &&
+                   file_write(path, file.data, file.size, r);
+    file_free(&file);
+    return ok;
 }
 
 /* All pictures use the exposure of the first. */
 static int write_frame(relief_options *o, relief_frame *f, const char *path, report *r)
 {
     show(f, o->show);
-    const image out = {f->width, f->height, 3, f->rgb};
+    image out = {f->width, f->height, 3, f->rgb};
     if (isnan(o->exposure_ev)) {
         o->exposure_ev = picture_auto_exposure(&out, PICTURE_CLIPPED);
     }
-    return picture_write(path, &out, o->exposure_ev, PICTURE_CLIPPED, r);
+    return write_before(o, f, &out, path, r);
 }
 
 static void tell(const relief_frame *f)
@@ -227,6 +288,29 @@ static void tell(const relief_frame *f)
     const double n = s->pixels > 0 ? (double)s->pixels : 1.0;
     report_say("pixels of the simple model %.0f: hit %.2f %%, passed %.2f %%, holes %.2f %%\n", (double)s->pixels,
            100.0 * (double)s->hits / n, 100.0 * (double)s->missed / n, 100.0 * (double)s->holes / n);
+}
+
+/* Reads the world, and takes its sun if no light is given. */
+static int open_sky(relief_shot *shot, work *w, const relief_options *o, report *r)
+{
+    if (!has_world(o)) {
+        return 1;
+    }
+    const int wants_ground = !o->no_ground && o->with == NULL && o->background.kind == BACKGROUND_WORLD;
+    if (!relief_sky_open(&w->sky, o->world, wants_ground ? &w->simple : NULL, shot->view.eye, o->view.is_quiet, r)) {
+        return 0;
+    }
+    shot->sky = &w->sky;
+    shot->shows_sky = o->show == PLANE_FULL && o->background.kind == BACKGROUND_WORLD;
+    if (w->sky.ground.instance_count > 0) {
+        shot->scene = &w->sky.ground;
+    }
+    if (!o->has_light && w->sky.around.has_sun) {
+        w->light = w->sky.around.sun;
+    } else if (!o->has_light && !relief_path_leads(&w->path, KEY_LIGHT)) {
+        shot->light = NULL;
+    }
+    return 1;
 }
 
 static int render(work *w, relief_options *o, report *r)
@@ -253,7 +337,10 @@ static int render(work *w, relief_options *o, report *r)
     shot.threads = pool_threads(o->threads);
     shot.bounce = o->bounce ? BOUNCE_MAP : 0;
     shot.samples = samples_of(o);
-    if (o->show == SHOW_DEPTH) {
+    if (!open_sky(&shot, w, o, r)) {
+        return 0;
+    }
+    if (o->show == PLANE_DEPTH) {
         o->exposure_ev = NAN;
     }
     if (o->path != NULL) {

@@ -44,7 +44,7 @@ static int hex_byte(const char *at)
     return value;
 }
 
-static int parse_background(const char *text, void *at)
+int render_option_background(const char *text, void *at)
 {
     render_background *b = at;
     memset(b, 0, sizeof *b);
@@ -152,7 +152,7 @@ const option_row render_world_rows[] = {
                   "--background is a colour or transparent; with an environment map it is a round disc four times "
                   "as wide as the scene. With --transfer there is none, because a bake has no ground")},
     {.name = "--background", .value = "RRGGBB|world|transparent", .kind = OPTION_OWN, AT(background),
-     .parse = parse_background, .expects = "world, transparent, or a colour such as ffffff",
+     .parse = render_option_background, .expects = RENDER_BACKGROUND_WANTS,
      .help = HELP("shown where there is no surface: a colour, the world (default; black if there is none), or "
                   "transparent, for a PNG with alpha")},
     {.kind = OPTION_END},

@@ -79,6 +79,10 @@ typedef struct render_options {
 
 extern const option_table render_table, plan_table;
 
+/* For a row of an option table (OPTION_OWN): stores a render_background. */
+int render_option_background(const char *text, void *at);
+#define RENDER_BACKGROUND_WANTS "world, transparent, or a colour such as ffffff"
+
 /* Rows that other verbs share. Begin the struct of such a verb with a render_options. */
 extern const option_row render_scene_rows[], render_view_rows[], render_world_rows[], render_light_rows[],
     render_bounce_rows[], render_group_rows[], render_budget_rows[], render_picture_rows[], render_other_rows[];
