@@ -115,6 +115,62 @@ status 2 relief render pit.lmr
 status 2 relief render pit.lmr -o bad.png --pick q
 status 2 relief render pit.lmr -o bad.png --eye 1,2,3
 status 2 relief render pit.lmr -o bad.png --shadow-map 12
+# Crowds: a placement at the origin is the relief itself, and turned, moved or scaled ones are as with another eye.
+status 0 relief bake pit.obj -o pit.lmr --triangles 20 --size 32
+mkdir -p stage
+cp pit.lmr stage/
+printf '# one\n\npit.lmr 0 0 0\n' >stage/one.txt
+eye="--eye 1.5,2,5 --target 0,0,0 --size 64x48"
+for more in "" "--light point:3,3,3:0,-1,0:90,90,90" "--with floor.obj --bounce" "--world sky"; do
+    # shellcheck disable=SC2086
+    status 0 relief render pit.lmr $eye $more -o alone.ppm
+    # shellcheck disable=SC2086
+    status 0 relief render --crowd stage/one.txt $eye $more -o crowd.ppm
+    check "a crowd of one is a relief, $more" cmp -s alone.ppm crowd.ppm
+done
+printf 'pit.lmr 0 0 0 90 2' >stage/turned.txt
+status 0 relief render --crowd stage/turned.txt --eye 10,4,-3 --target 0,0,0 --size 64x48 --show depth -o turned.pfm
+status 0 relief render pit.lmr $eye --show depth -o alone.pfm
+status 0 compare turned.pfm alone.pfm
+check "a relief turned and twice as large has twice the depth" grep -q ' mean \(2.00\|1.99\)' out.txt
+printf 'pit.lmr %s\n' '0 0 0 30' '2.5 0 -1 200 0.5' '-2 0.5 -4' '-2 0.5 -4' '0 0 90' >stage/many.txt
+awk '{ line[NR] = $0 } END { for (i = NR; i > 0; --i) print line[i] }' stage/many.txt >stage/reversed.txt
+for threads in 1 3; do
+    status 0 relief render --crowd stage/many.txt $eye --threads $threads -o many-$threads.ppm
+done
+check "a crowd has the same bytes on any threads" cmp -s many-1.ppm many-3.ppm
+check "a crowd has more than its first" differ many-1.ppm crowd.ppm
+status 0 relief render --crowd stage/reversed.txt $eye -o reversed.ppm
+check "and in any order" cmp -s many-1.ppm reversed.ppm
+status 0 relief render --crowd stage/many.txt --path looks.txt --frames 2 --size 16x16 -o walk.ppm
+check "a path walks through a crowd" test -s walk-0001.ppm
+# crowd_refused LINES WORDS: checks that a list is refused.
+crowd_refused() {
+    printf "$1" >stage/bad.txt
+    status 1 relief render --crowd stage/bad.txt $eye -o bad.png
+    said "$2"
+}
+crowd_refused '# none\n' "stage/bad.txt: no placements in it"
+crowd_refused 'pit.lmr 0 0 0\npit.lmr 0 0\n' "stage/bad.txt: line 2: not FILE.lmr X Y Z [TURN [SCALE]]"
+crowd_refused 'pit.lmr 0 0 0 0 1 7\n' "stage/bad.txt: line 1: not FILE.lmr"
+crowd_refused 'pit.lmr 0 nan 0\n' "stage/bad.txt: line 1: not FILE.lmr"
+crowd_refused 'pit.lmr 0 2e6 0\n' "a place over 1e+06 m away"
+crowd_refused 'pit.lmr 0 0 0 0 -1\n' "a scale that is not 1e-06 .. 1e+06"
+crowd_refused 'nowhere.lmr 0 0 0\n' "stage/nowhere.lmr: "
+crowd_refused 'many.txt 0 0 0\n' "stage/many.txt: not a whole .lmr file"
+printf '../pit.lmr 0 0 0\n' >stage/up.txt
+status 1 relief render --crowd stage/up.txt $eye --only-here -o bad.png
+said "no file in or below its folder"
+status 2 relief render pit.lmr --crowd stage/one.txt -o bad.png
+said "--crowd names the reliefs to draw: leave pit.lmr out"
+status 2 relief render --crowd stage/one.txt --compare pit.obj -o bad.png
+printf 'pit.lmr 0 0 0\n' >stage/self.ppm
+status 2 relief render --crowd stage/self.ppm -o stage/self.ppm
+cp pit.lmr stage/self.ppm
+printf 'self.ppm 0 0 0\n' >stage/over.txt
+status 2 relief render --crowd stage/over.txt $eye -o stage/self.ppm
+said "stage/self.ppm: cannot be written: it is read"
+check "and what it reads stays" cmp -s pit.lmr stage/self.ppm
 # In a world a box as a relief has the light, shadow, ground and background of `lambent render`.
 eye="--eye 3,2,4 --target 0,0,0 --size 80x60"
 { printf 'PF\n16 8\n-1.0\n'; repeated 192 "$half"; repeated 192 "$two"; } >dusk.pfm

@@ -1,6 +1,6 @@
 /* main_relief.c: compares reliefs with the complex models that they replace: errors, speed, memory. [P1-P12]
  *
- *     measure-relief [quality|baroque|own|rooms|causes|speed]...     default: all; LMB_PICTURES: folder for pictures
+ *     measure-relief [quality|baroque|own|rooms|causes|speed|crowds]...     default: all; LMB_PICTURES: folder for pictures
  *
  * Exit status 1 if a bar is missed. */
 #include <math.h>
@@ -192,7 +192,7 @@ int main(int argc, char **argv)
 {
     static const struct { const char *name; void (*run)(report *r); } parts[] = {
         {"quality", relief_quality}, {"baroque", relief_baroque}, {"own", relief_own_views}, {"rooms", relief_rooms}, {"causes", relief_causes},
-        {"speed", relief_speed}};
+        {"speed", relief_speed}, {"crowds", relief_crowds}};
     report r = {""};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; ++i) {
         if (wanted(parts[i].name, argc, argv)) {

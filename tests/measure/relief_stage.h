@@ -58,5 +58,6 @@ void relief_own_views(report *r); /* relief_own.c */
 void relief_rooms(report *r);     /* relief_rooms.c */
 void relief_causes(report *r);    /* relief_causes.c */
 void relief_baroque(report *r);   /* relief_baroque.c */
+void relief_crowds(report *r);    /* relief_crowds.c */
 
 #endif

@@ -11,6 +11,7 @@
 #include "../common/fvec.h"
 #include "../common/progress.h"
 #include "relief_bounce.h"
+#include "relief_crowd.h"
 #include "relief_sky.h"
 
 /* One kind of geometry, with the target for resolving pixels and the shadow map. */
@@ -30,6 +31,8 @@ typedef struct pen {
     lmb_irradiance direct, open, indirect;
     relief_bounce bounce; /* the work's, with a separate cut */
     relief_sky_scratch sky;
+    crowd_band band;
+    int32_t band_row; /* the band's first tile row */
     lmb_radiance radiance, open_radiance;
     lmb_relief_stats stats;
     lmb_status failed;
@@ -43,6 +46,8 @@ typedef struct work {
     lmb_scene simple;
     layer plain, relief; /* scene NULL: none */
     lmb_tile tile;       /* of shadow maps */
+    relief_seen *seen;   /* placements of a crowd in the view */
+    uint32_t seen_count;
     relief_bounce bounce;
     pen *pens;
     binned bins;
@@ -87,6 +92,17 @@ static float nearest_pixel(const lmb_view *v, const lmb_scene *s)
     return v->kind == LMB_PERSPECTIVE ? side * length3(sub3(near, v->eye)) : side;
 }
 
+/* m, or m at a view's near plane. */
+static float coarsest_texel(const lmb_relief *r)
+{
+    float texel = 0.0f;
+    for (int32_t i = 0; i < r->views; ++i) {
+        const lmb_relief_view *v = &r->view[i];
+        texel = maxf(texel, v->perspective ? v->texel * v->near_m : v->texel);
+    }
+    return texel;
+}
+
 /* Texels per side of a layer's map. A relief's map need not be much finer than the coarsest texels of the views,
  * because the views show no finer detail, nor than the picture's pixels, and the cost is proportional to warped
  * texels. */
@@ -97,13 +113,90 @@ static int32_t map_side(const work *w, const layer *l, const lmb_scene *bounds, 
     if (l != &w->relief) {
         return w->shot->shadow_map;
     }
-    for (int32_t i = 0; i < w->shot->relief->views; ++i) {
-        const lmb_relief_view *v = &w->shot->relief->view[i];
-        texel = maxf(texel, v->perspective ? v->texel * v->near_m : v->texel);
+    const relief_crowd *crowd = w->shot->crowd;
+    if (crowd == NULL) {
+        texel = coarsest_texel(w->shot->relief);
+    }
+    for (uint32_t i = 0; crowd != NULL && i < crowd->count; ++i) {
+        const float own = coarsest_texel(crowd->placed[i].relief) * crowd->placed[i].scale;
+        texel = i == 0 ? own : minf(texel, own);
     }
     texel = maxf(FINEST * texel, FINEST_PIXELS * nearest_pixel(&w->shot->view, all));
     const float wanted = texel > 0.0f ? ceilf(across / (8.0f * texel)) * 8.0f : 1e9f;
     return wanted < (float)w->shot->shadow_map ? (int32_t)fmaxf(wanted, 8.0f) : w->shot->shadow_map;
+}
+
+/* Faces of a crowd's map, drawn by bands. */
+typedef struct crowd_map {
+    const work *of;
+    const lmb_shadow_map *map;
+    int32_t face;
+    relief_seen *seen;
+    uint32_t count;
+    crowd_band band[POOL_MAX];
+    lmb_status failed[POOL_MAX];
+} crowd_map;
+
+/* As in a shadow map: of an axis distance z. */
+static float map_depth(const lmb_view *v, float z)
+{
+    const float d =
+        v->kind == LMB_PERSPECTIVE ? v->near_m / maxf(z, v->near_m) : (v->far_m - z) / (v->far_m - v->near_m);
+    return clampf(d, 0.0f, 1.0f);
+}
+
+static void store_map_tile(const lmb_surface *depth, const lmb_view *v, const crowd_tile *tile, int32_t x, int32_t y)
+{
+    uint8_t *row = (uint8_t *)depth->data + (ptrdiff_t)y * depth->stride_bytes;
+    float *to = (float *)(void *)(row + (size_t)x * LMB_TILE_PIXELS * sizeof(float));
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        to[k] = tile->depth[k] > 0.0f ? map_depth(v, tile->depth[k]) : 0.0f;
+    }
+}
+
+static void draw_map_band(void *user, int index, int thread)
+{
+    crowd_map *m = user;
+    crowd_band *b = &m->band[thread];
+    const lmb_view *v = &m->map->view[m->face];
+    const int32_t rows = m->map->size / LMB_TILE, first = index * CROWD_ROWS,
+                  past = first + CROWD_ROWS < rows ? first + CROWD_ROWS : rows;
+    if (m->failed[thread] != LMB_OK) {
+        return;
+    }
+    m->failed[thread] =
+        crowd_band_draw(b, m->seen, m->count, v, m->of->shot->kernels, &m->of->shot->how, first, past, NULL);
+    for (int32_t i = 0; i < rows * (past - first) && m->failed[thread] == LMB_OK; ++i) {
+        store_map_tile(&m->map->face[m->face].depth, v, &b->tiles[i / rows * b->columns + i % rows], i % rows,
+                       first + i / rows);
+    }
+}
+
+static lmb_status draw_crowd_map(work *w, const lmb_shadow_map *map)
+{
+    crowd_map *m = calloc(1, sizeof *m);
+    lmb_status status = m != NULL ? LMB_OK : LMB_ERR_CAPACITY;
+    if (status == LMB_OK) {
+        m->of = w;
+        m->map = map;
+        m->seen = w->seen;
+        for (int i = 0; i < w->threads; ++i) {
+            status = crowd_band_take(&m->band[i], map->size) > 0 ? status : LMB_ERR_CAPACITY;
+        }
+    }
+    for (int32_t f = 0; f < map->faces && status == LMB_OK; ++f) {
+        if ((map->drawn >> f & 1u) != 0) {
+            m->face = f;
+            m->count = relief_crowd_see(m->seen, w->shot->crowd, &map->view[f]);
+            pool_run(w->threads, (map->size / LMB_TILE + CROWD_ROWS - 1) / CROWD_ROWS, draw_map_band, m);
+        }
+    }
+    for (int i = 0; m != NULL && i < w->threads; ++i) {
+        status = status != LMB_OK ? status : m->failed[i];
+        crowd_band_free(&m->band[i]);
+    }
+    free(m);
+    return status;
 }
 
 /* The map is fitted to `bounds`; `all` has receivers too. */
@@ -120,9 +213,13 @@ static int draw_map(work *w, layer *l, const lmb_scene *bounds, const lmb_scene 
     lmb_status status = lmb_shadow_map_init(&l->map, s->light, bounds, side, LMB_ID32, l->map_memory, bytes);
     if (status == LMB_OK) {
         lmb_shadow_map_clear(&l->map);
+    }
+    if (status == LMB_OK && l == &w->relief && s->crowd != NULL) {
+        status = draw_crowd_map(w, &l->map);
+    } else if (status == LMB_OK) {
         status = lmb_shadow_map_draw(&l->map, s->kernels, l->scene, 1, lmb_scene_triangles(l->scene), NULL);
     }
-    if (status == LMB_OK && l == &w->relief) {
+    if (status == LMB_OK && l == &w->relief && s->crowd == NULL) {
         status = lmb_relief_shadow_rows(&l->map, s->kernels, &w->tile, s->relief, &s->how, 0,
                                         l->map.faces * (l->map.size / LMB_TILE));
     }
@@ -154,8 +251,12 @@ static lmb_status resolve(pen *w, int32_t x, int32_t y)
     }
     if (status == LMB_OK && w->of->relief.scene != NULL) {
         lmb_tile *t = w->of->plain.scene != NULL ? &w->other : &w->tile;
-        status = lmb_resolve_tile(t, s->kernels, &w->of->view, w->of->relief.scene, &w->of->relief.target, x, y);
-        if (status == LMB_OK) {
+        if (s->crowd != NULL) {
+            crowd_band_tile(t, &w->band, x / LMB_TILE, y / LMB_TILE - w->band_row, x, y);
+        } else {
+            status = lmb_resolve_tile(t, s->kernels, &w->of->view, w->of->relief.scene, &w->of->relief.target, x, y);
+        }
+        if (status == LMB_OK && s->crowd == NULL) {
             status = lmb_relief_tile(t, s->kernels, s->relief, &w->of->view, &s->how, &w->stats);
         }
         if (status == LMB_OK && w->of->plain.scene != NULL) {
@@ -275,6 +376,10 @@ static lmb_status draw_tile(pen *w, int32_t x, int32_t y)
 
 static lmb_status draw_layer(work *w, layer *l)
 {
+    if (l == &w->relief && w->shot->crowd != NULL) {
+        w->seen_count = relief_crowd_see(w->seen, w->shot->crowd, &w->view);
+        return LMB_OK; /* by bands */
+    }
     if (l->scene == NULL) {
         return LMB_OK;
     }
@@ -298,6 +403,23 @@ static void draw_row(void *user, int row, int thread)
     }
 }
 
+/* A band of a crowd. */
+static void draw_band(void *user, int index, int thread)
+{
+    work *w = user;
+    pen *p = &w->pens[thread];
+    const int32_t rows = (w->out->height + LMB_TILE - 1) / LMB_TILE, first = index * CROWD_ROWS,
+                  past = first + CROWD_ROWS < rows ? first + CROWD_ROWS : rows;
+    if (p->failed == LMB_OK) {
+        p->band_row = first;
+        p->failed = crowd_band_draw(&p->band, w->seen, w->seen_count, &w->view, w->shot->kernels, &w->shot->how, first,
+                                    past, &p->stats);
+    }
+    for (int32_t row = first; row < past && p->failed == LMB_OK; ++row) {
+        draw_row(user, row, thread);
+    }
+}
+
 static void add_stats(lmb_relief_stats *sum, const lmb_relief_stats *more)
 {
     sum->pixels += more->pixels;
@@ -313,7 +435,12 @@ static lmb_status draw_rows(work *w)
     for (int i = 0; i < w->threads; ++i) {
         memset(&w->pens[i].stats, 0, sizeof w->pens[i].stats);
     }
-    pool_run(w->threads, (w->out->height + LMB_TILE - 1) / LMB_TILE, draw_row, w);
+    const int32_t rows = (w->out->height + LMB_TILE - 1) / LMB_TILE;
+    if (w->shot->crowd != NULL) {
+        pool_run(w->threads, (rows + CROWD_ROWS - 1) / CROWD_ROWS, draw_band, w);
+    } else {
+        pool_run(w->threads, rows, draw_row, w);
+    }
     for (int i = 0; i < w->threads; ++i) {
         add_stats(&w->out->stats, &w->pens[i].stats);
         status = status != LMB_OK ? status : w->pens[i].failed;
@@ -328,6 +455,13 @@ static int take_pens(work *w, report *r)
         pen *p = &w->pens[i];
         p->of = w;
         p->bounce = w->bounce;
+        if (w->shot->crowd != NULL) {
+            const size_t bytes = crowd_band_take(&p->band, w->out->width);
+            w->out->bytes += bytes;
+            if (bytes == 0) {
+                return report_fail(r, "not enough memory for a crowd");
+            }
+        }
         if (w->bounce.cut != NULL && i > 0 && (p->bounce.cut = take(w, sizeof *p->bounce.cut, r)) == NULL) {
             return 0;
         }
@@ -398,12 +532,16 @@ static int begin(work *w, report *r)
     w->threads = s->threads > 1 ? s->threads : 1;
     w->pens = take(w, (size_t)w->threads * sizeof *w->pens, r);
     w->plain.scene = s->scene;
-    if (s->relief != NULL) {
+    if (s->crowd != NULL) {
+        w->simple = s->crowd->scene;
+        w->relief.scene = &w->simple;
+        w->seen = take(w, s->crowd->count * sizeof *w->seen, r);
+    } else if (s->relief != NULL) {
         lmb_relief_scene(&w->simple, s->relief);
         w->relief.scene = &w->simple;
     }
     return r->text[0] == '\0' && (w->plain.scene == NULL || take_layer(w, &w->plain, r)) &&
-           (w->relief.scene == NULL || take_layer(w, &w->relief, r));
+           (w->relief.scene == NULL || s->crowd != NULL || take_layer(w, &w->relief, r));
 }
 
 static void layer_free(layer *l)
@@ -428,9 +566,11 @@ int relief_shoot(relief_frame *out, const relief_shot *shot, report *r)
     layer_free(&w->plain);
     layer_free(&w->relief);
     binned_free(&w->bins);
-    for (int i = 1; w->pens != NULL && i < w->threads; ++i) {
-        free(w->pens[i].bounce.cut);
+    for (int i = 0; w->pens != NULL && i < w->threads; ++i) {
+        crowd_band_free(&w->pens[i].band);
+        free(i > 0 ? w->pens[i].bounce.cut : NULL);
     }
+    free(w->seen);
     free(w->pens);
     relief_bounce_free(&w->bounce);
     free(w);

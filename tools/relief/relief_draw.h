@@ -7,12 +7,14 @@
 #include "../common/report.h"
 
 struct relief_sky; /* relief_sky.h */
+struct relief_crowd; /* relief_crowd.h */
 
 /* The contents and settings of a picture. */
 typedef struct relief_shot {
     const lmb_kernels *kernels;
     lmb_view view;
     const lmb_relief *relief; /* NULL: none */
+    const struct relief_crowd *crowd; /* placements, instead of `relief`; NULL: none */
     const lmb_scene *scene;   /* ordinary geometry; NULL: none */
     lmb_relief_how how;
     const lmb_light *light;   /* NULL: without `sky` only surface attributes */

@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../common/checksum.h"
 #include "../common/option_value.h"
 #include "../common/progress.h"
 #include "../common/view_frame.h"
@@ -14,6 +13,7 @@
 #include "../picture/picture.h"
 #include "../render/background.h"
 #include "relief_compare.h"
+#include "relief_crowd.h"
 #include "relief_options.h"
 #include "relief_path.h"
 #include "relief_sky.h"
@@ -36,6 +36,10 @@ static const int32_t ground_values[] = {0, 1};
 static const option_row rows[] = {
     {.name = "FILE.lmr", .kind = OPTION_TEXT, .value = "", AT(file), .file = OPTION_READS,
      .help = HELP("made by `lambent relief bake`")},
+    {.name = "--crowd", .value = "LIST", .kind = OPTION_TEXT, AT(crowd), .file = OPTION_READS,
+     .help = HELP("many reliefs in one picture, in place of FILE.lmr: a list of placements, one per line, each "
+             "FILE.lmr X Y Z [TURN [SCALE]]. TURN is in degrees about +y; names are relative to the list. A placement "
+             "takes as long as the pixels that it covers: bake small ones with --size 64 --triangles 500")},
     {.kind = OPTION_TITLE, .help = HELP("view")},
     VIEW_OPTION_SIZE(relief_options, view, "px (default 640x480)"),
     VIEW_OPTIONS_CAMERA(relief_options, view, "the camera's position (default: the whole model from slightly above)"),
@@ -96,7 +100,8 @@ static const option_row rows[] = {
 
 static const option_table table = {
     .verb = "relief render",
-    .usage = HELP("relief render FILE.lmr [--path FILE] -o OUT [options]"),
+    .usage = HELP("relief render FILE.lmr [--path FILE] -o OUT [options]\n"
+                  "relief render --crowd LIST [--path FILE] -o OUT [options]"),
     .about = HELP("Draws a complex model as a few triangles that carry its surface, silhouette, depth and shadow, "
              "by views of it."),
     .part = {rows, relief_path_rows},
@@ -142,8 +147,12 @@ static int parse(relief_options *o, int argc, char **argv, report *r)
     if (asked != OPTIONS_RUN) {
         return asked;
     }
-    if (o->file == NULL) {
+    if (o->file == NULL && o->crowd == NULL) {
         return report_fail(r, "no relief given; lambent relief bake makes one");
+    }
+    if (o->crowd != NULL && (o->file != NULL || o->compare != NULL)) {
+        return report_fail(r, "--crowd names the reliefs to draw: leave %s out",
+                           o->file != NULL ? o->file : "--compare");
     }
     if (o->compare != NULL && o->with != NULL) {
         return report_fail(r, "--compare draws the complex model alone: without --with");
@@ -168,7 +177,8 @@ static int parse(relief_options *o, int argc, char **argv, report *r)
 typedef struct work {
     file_bytes file;
     lmb_relief relief;
-    lmb_scene simple;
+    relief_crowd crowd;
+    lmb_scene simple; /* of the relief, or of all placements */
     model with, complex; /* complex: the model of --compare */
     lmb_light light; /* the given light, or the default sun */
     key_path path;
@@ -182,26 +192,20 @@ static void work_free(work *w)
     model_free(&w->complex);
     key_path_free(&w->path);
     relief_sky_free(&w->sky);
+    relief_crowd_free(&w->crowd);
     free(w);
 }
 
-static int open_relief(work *w, const char *path, report *r)
+static int open_reliefs(work *w, const relief_options *o, report *r)
 {
-    if (!file_read(&w->file, path, r)) {
-        return 0;
+    if (o->crowd != NULL) {
+        const int ok = relief_crowd_read(&w->crowd, o->crowd, r);
+        w->simple = w->crowd.scene;
+        return ok;
     }
-    const int fits = checksum_fits(w->file.data, w->file.size, LMB_RELIEF_HEADER_WORDS);
-    lmb_status status = lmb_relief_swap(w->file.data, w->file.size);
-    if (status == LMB_OK && !fits) {
-        return report_fail(r, "%s: a damaged .lmr file; copy it or bake it again", path);
-    }
-    if (status == LMB_OK) {
-        status = lmb_relief_open(&w->relief, w->file.data, w->file.size);
-    }
+    const int ok = relief_file_open(&w->relief, &w->file, o->file, r);
     lmb_relief_scene(&w->simple, &w->relief);
-    return status == LMB_OK ||
-           report_fail(r, "%s: %s", path, status == LMB_ERR_CAPACITY ? "more views than this build takes"
-                                                                     : "not a whole .lmr file of version 1");
+    return ok;
 }
 
 static int load(model *out, const char *path, const relief_options *o, report *r)
@@ -220,7 +224,8 @@ static int choose_view(lmb_view *out, const work *w, relief_options *o, report *
     lmb_view middle;
     const int is_quiet = o->view.is_quiet;
     o->view.is_quiet |= relief_path_leads(&w->path, KEY_CAMERA); /* no note about a default camera */
-    if (o->view.has_eye ? !view_look(&middle, &o->view, r) : !view_frame(&middle, &o->view, &w->simple, o->file, r)) {
+    const char *name = o->crowd != NULL ? o->crowd : o->file;
+    if (o->view.has_eye ? !view_look(&middle, &o->view, r) : !view_frame(&middle, &o->view, &w->simple, name, r)) {
         return 0;
     }
     o->view.is_quiet = is_quiet;
@@ -321,14 +326,15 @@ static int render(work *w, relief_options *o, report *r)
                            LMB_LIGHT_DIRECTIONAL, 0, 0};
     memset(&shot, 0, sizeof shot);
     w->light = o->has_light ? o->light : sun;
-    if (!options_files(o, &table, r) || !open_relief(w, o->file, r) ||
+    if (!options_files(o, &table, r) || !open_reliefs(w, o, r) ||
         (o->with != NULL && !load(&w->with, o->with, o, r)) ||
         (o->compare != NULL && !load(&w->complex, o->compare, o, r)) || !options_files(o, &table, r) ||
         !relief_path_open(&w->path, o, &w->light, r) || !choose_view(&shot.view, w, o, r)) {
         return 0;
     }
     shot.kernels = o->kernels;
-    shot.relief = &w->relief;
+    shot.relief = o->crowd == NULL ? &w->relief : NULL;
+    shot.crowd = o->crowd != NULL ? &w->crowd : NULL;
     shot.scene = o->with != NULL ? &w->with.scene : NULL;
     shot.how = o->how;
     shot.light = &w->light;
