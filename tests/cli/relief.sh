@@ -163,6 +163,10 @@ status 1 relief render --crowd stage/up.txt $eye --only-here -o bad.png
 said "no file in or below its folder"
 status 2 relief render pit.lmr --crowd stage/one.txt -o bad.png
 said "--crowd names the reliefs to draw: leave pit.lmr out"
+status 1 relief render pit.lmr --photo nowhere -o bad.png
+said "nowhere."
+status 2 relief render pit.lmr --photo nowhere --size 9x9 -o bad.png
+said "--photo sets camera and size"
 status 2 relief render --crowd stage/one.txt --compare pit.obj -o bad.png
 printf 'pit.lmr 0 0 0\n' >stage/self.ppm
 status 2 relief render --crowd stage/self.ppm -o stage/self.ppm

@@ -163,7 +163,7 @@ static void draw_forms(relief_shot shot, const relief_crowd *crowd, crowd_model 
     const double whole_s = shoot_best(&truth, &shot, 1, r);
     printf("%s: whole meshes %.0f ms\n", where, 1e3 * whole_s);
     relief_show(where, truth.rgb, truth.width, truth.height, r);
-    double mesh_s[MESHES];
+    double mesh_s[MESHES] = {0.0};
     for (int k = 0; k < MESHES; ++k) {
         char name[32];
         scene_of(&scene, crowd, figure, k);

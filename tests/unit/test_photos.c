@@ -5,6 +5,7 @@
 
 #include "../../src/base/vec.h"
 #include "../../tools/relief/relief_photos.h"
+#include "../../tools/relief/relief_withheld.h"
 #include "../test.h"
 
 void test_photos(void);
@@ -108,8 +109,64 @@ static void test_blocks(void)
     relief_photo_free(&p[1]);
 }
 
+/* Colour of the wall at a place, m. */
+static float tint(float x, float y) { return 0.5f + 0.2f * sinf(3.0f * x) * cosf(2.0f * y); }
+
+/* A photo of a painted wall from a place beside the origin. */
+static mix_frame painted(double beside_m)
+{
+    mix_frame f = wall();
+    f.pose[3] = beside_m;
+    for (int k = 0; k < PIXELS; ++k) {
+        const float x = (float)beside_m + 2.0f * ((float)(k % SIDE) - 7.5f) / 16.0f,
+                    y = 2.0f * ((float)(k / SIDE) - 7.5f) / 16.0f;
+        light[3 * k] = light[3 * k + 1] = light[3 * k + 2] = tint(x, y);
+    }
+    return f;
+}
+
+/* Two photos show a third from a place between them; from a place beside them a part is filled or missing. */
+static void test_withheld(void)
+{
+    static const double places[4] = {-0.25, 0.25, 0.0, 1.0};
+    relief_photo p[4];
+    triangle_mesh mesh;
+    relief_bake bake;
+    file_bytes file = {NULL, 0};
+    lmb_relief relief;
+    report r = {""};
+    withheld_figures e[2];
+    memset(&bake, 0, sizeof bake);
+    bake.format = LMB_RELIEF_FULL;
+    for (int i = 0; i < 4; ++i) {
+        const mix_frame f = painted(places[i]);
+        CHECK(relief_photo_of(&p[i], &f, &r));
+        CHECK(i > 1 || relief_add_planes(&bake, &p[i].view, p[i].depth, p[i].normal, p[i].colour, 0, &r));
+    }
+    CHECK(relief_blocks(&mesh, p, 2, 0.25f, &r));
+    CHECK(relief_encode(&file, &bake, &mesh, &r) && lmb_relief_open(&relief, file.data, file.size) == LMB_OK);
+    for (int i = 0; i < 2; ++i) {
+        relief_frame f;
+        relief_shot shot = {.kernels = lmb_kernels_pick(), .view = p[2 + i].view, .relief = &relief};
+        shot.view.near_m *= 0.1f;
+        CHECK(relief_shoot(&f, &shot, &r));
+        withheld_measure(&e[i], &f, &p[2 + i]);
+        relief_frame_free(&f);
+        relief_photo_free(&p[2 + i]);
+        relief_photo_free(&p[i]);
+    }
+    CHECK_MSG(e[0].db > 35.0 && e[0].shown > 0.95 && e[0].filled < 0.05, "between: %g dB, %g shown, %g filled", e[0].db,
+              e[0].shown, e[0].filled);
+    CHECK_MSG(e[1].db > 15.0 && e[1].shown < 0.9 && e[1].shown > 0.4, "beside: %g dB, %g shown, %g filled", e[1].db,
+              e[1].shown, e[1].filled);
+    triangle_mesh_free(&mesh);
+    relief_bake_free(&bake);
+    file_free(&file);
+}
+
 void test_photos(void)
 {
+    test_withheld();
     test_poses();
     test_pictures();
     test_blocks();

@@ -33,7 +33,7 @@
 
 /* The command line of `lambent relief render`. */
 typedef struct relief_options {
-    const char *file, *out, *compare, *with, *path, *crowd;
+    const char *file, *out, *compare, *with, *path, *crowd, *photo;
     model_choice choice; /* choices for the files of --with and --compare */
     view_options view;
     lmb_relief_how how;

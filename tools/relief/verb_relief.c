@@ -17,9 +17,11 @@
 #include "relief_options.h"
 #include "relief_path.h"
 #include "relief_sky.h"
+#include "relief_withheld.h"
 
 enum { BOUNCE_MAP = 256 }; /* texels per side */
 #define AMBIENT 0.3f /* W/m2 */
+#define NEARER  0.1f /* of a photo's nearest depth: nothing before that is drawn */
 enum { PLANE_FULL, PLANE_DEPTH, PLANE_NORMAL, PLANE_ALBEDO, PLANE_LIT };
 
 /* --- command line ------------------------------------------------------------------------------------------------- */
@@ -43,6 +45,10 @@ static const option_row rows[] = {
     {.kind = OPTION_TITLE, .help = HELP("view")},
     VIEW_OPTION_SIZE(relief_options, view, "px (default 640x480)"),
     VIEW_OPTIONS_CAMERA(relief_options, view, "the camera's position (default: the whole model from slightly above)"),
+    {.name = "--photo", .value = "PREFIX", .kind = OPTION_TEXT, AT(photo),
+     .help = HELP("draws from the place of a photo as in `relief bake --frame`, in the photo's size and without light, "
+             "and prints how far the picture is from it (PSNR) and how many pixels the simple model fills. Use a photo "
+             "that the relief was not made of")},
     {.kind = OPTION_TITLE, .help = HELP("surface")},
     {.name = "--pick", .kind = OPTION_WORD, AT(how.pick), .words = picks,
      .help = HELP("the winning candidate: nearest to the simple surface (default), or to the eye's ray")},
@@ -163,6 +169,12 @@ static int parse(relief_options *o, int argc, char **argv, report *r)
     if (has_world(o) && o->compare != NULL) {
         return report_fail(r, "--compare is of pictures in the light of one source: leave --world out");
     }
+    if (o->photo != NULL && (o->view.has_eye || o->view.width > 0 || o->path != NULL || o->compare != NULL)) {
+        return report_fail(r, "--photo sets camera and size: leave --eye, --size, --path and --compare out");
+    }
+    if (o->photo != NULL && o->show == PLANE_FULL) {
+        o->show = PLANE_ALBEDO;
+    }
     if (isnan(o->ambient)) {
         o->ambient = has_world(o) ? 0.0f : AMBIENT;
     }
@@ -183,6 +195,7 @@ typedef struct work {
     lmb_light light; /* the given light, or the default sun */
     key_path path;
     relief_sky sky;
+    relief_photo photo;
 } work;
 
 static void work_free(work *w)
@@ -193,6 +206,7 @@ static void work_free(work *w)
     key_path_free(&w->path);
     relief_sky_free(&w->sky);
     relief_crowd_free(&w->crowd);
+    relief_photo_free(&w->photo);
     free(w);
 }
 
@@ -219,9 +233,15 @@ static int load(model *out, const char *path, const relief_options *o, report *r
     return 1;
 }
 
-static int choose_view(lmb_view *out, const work *w, relief_options *o, report *r)
+static int choose_view(lmb_view *out, work *w, relief_options *o, report *r)
 {
     lmb_view middle;
+    if (o->photo != NULL) {
+        const int ok = relief_photo_read(&w->photo, o->photo, r);
+        *out = w->photo.view;
+        out->near_m *= NEARER;
+        return ok;
+    }
     const int is_quiet = o->view.is_quiet;
     o->view.is_quiet |= relief_path_leads(&w->path, KEY_CAMERA); /* no note about a default camera */
     const char *name = o->crowd != NULL ? o->crowd : o->file;
@@ -295,6 +315,14 @@ static void tell(const relief_frame *f)
            100.0 * (double)s->hits / n, 100.0 * (double)s->missed / n, 100.0 * (double)s->holes / n);
 }
 
+static void tell_withheld(const relief_frame *f, const relief_photo *photo, const char *name)
+{
+    withheld_figures e;
+    withheld_measure(&e, f, photo);
+    report_say("%s: %.2f dB over the %.2f %% of the pixels with a surface; %.2f %% filled from the simple model\n",
+               name, e.db, 100.0 * e.shown, 100.0 * e.filled);
+}
+
 /* Reads the world, and takes its sun if no light is given. */
 static int open_sky(relief_shot *shot, work *w, const relief_options *o, report *r)
 {
@@ -357,6 +385,9 @@ static int render(work *w, relief_options *o, report *r)
     }
     if (!o->view.is_quiet) {
         tell(&f);
+    }
+    if (o->photo != NULL && !o->view.is_quiet) {
+        tell_withheld(&f, &w->photo, o->photo);
     }
     report_note(!o->view.is_verbose, "shadow map %.2f ms, triangles %.2f ms, pixels %.2f ms", 1e3 * f.light_s,
                 1e3 * f.draw_s, 1e3 * f.band_s);
