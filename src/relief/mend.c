@@ -155,7 +155,8 @@ static uint64_t showing(const lmb_tile *t, uint64_t missed)
 }
 
 /* Runs one pass over all pixels, reading the result of the previous pass. Returns 1 if a pixel became a hit. A pixel of
- * the simple model is corrected only from surfaces, an empty pixel from any neighbour. */
+ * the simple model is corrected only from surfaces, an empty pixel from any neighbour. A pixel that no view shows, away
+ * from all surfaces, lies beside the model if a view shows all of it; photos show a part only, and it stays. */
 static int mend_all(mender *m, lmb_relief_found *found, uint64_t inside)
 {
     const uint64_t hit = found->hit, all = showing(m->tile, found->missed);
@@ -172,7 +173,7 @@ static int mend_all(mender *m, lmb_relief_found *found, uint64_t inside)
             take_surface(m, &a, k);
             found->hit |= own;
             found->missed &= ~own;
-        } else if (m->tile->id[k] != 0 && hits == 0 && pixels >= 5) {
+        } else if (m->job->outside && m->tile->id[k] != 0 && hits == 0 && pixels >= 5) {
             found->hit &= ~own;
             found->missed |= own;
         } else if (is_hit && hits > 2 && !has_equals(m, shown, k)) {

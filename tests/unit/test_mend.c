@@ -54,6 +54,26 @@ static void build(wall *w, lmb_vec3 normal)
 
 static void mend(wall *w) { lmb_relief_mend(&w->tile, &w->found, &w->job, &w->view); }
 
+/* Pixels that no view shows, away from those that one does: past an orthographic view of the whole model there is
+ * nothing. Photos show only a part, so the simple model stays. */
+static void test_beside_views(void)
+{
+    for (int outside = 0; outside < 2; ++outside) {
+        wall w;
+        uint64_t kept = 0;
+        build(&w, vec3(0.0f, 0.0f, 1.0f));
+        w.job.outside = outside;
+        w.found.hit = 0x0303030303030303u; /* two columns */
+        mend(&w);
+        for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+            kept |= (uint64_t)((w.found.missed >> k & 1u) == 0) << k;
+        }
+        CHECK_MSG((kept >> 31 & 1u) == (uint64_t)!outside && (kept & 0x0303030303030303u) == 0x0303030303030303u,
+                  "outside %d: kept %016llx", outside, (unsigned long long)kept);
+        CHECK(outside != 0 || w.found.missed == 0);
+    }
+}
+
 /* Pixels within four pixel sides of depth show one surface. */
 static void test_near_by(void)
 {
@@ -113,6 +133,7 @@ static void test_outside(void)
 
 void test_mend(void)
 {
+    test_beside_views();
     test_near_by();
     test_edge_on();
     test_passes();
