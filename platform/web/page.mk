@@ -11,6 +11,7 @@ WASI      ?= /usr
 PAGE_LIBC := $(WASI)/lib/wasm32-wasi
 PAGE_RT    = $(firstword $(wildcard $(WASI)/lib/llvm-*/lib/clang/*/lib/wasi/libclang_rt.builtins-wasm32.a))
 PAGE_SRC  := $(filter-out src/isa/% tools/common/io_file.c tools/relief/verb_relief_bake.c tools/relief/relief_compare.c tools/relief/relief_path.c tools/common/key_path.c tools/relief/relief_model.c \
+             tools/relief/relief_crowd.c tools/relief/relief_crowd_read.c tools/relief/relief_photos.c tools/relief/relief_sky.c tools/relief/relief_withheld.c \
              tools/relight/relight_hidden.c tools/relight/relight_lobes.c tools/render/wireframe.c tools/render/blended.c tools/render/budget.c tools/render/scene_sample.c tools/render/bench_calibrate.c \
              %/gen_demo.c %/gen_srgb.c %/demo_scene.c tools/picture/io_png_write.c tools/picture/io_deflate.c tools/picture/io_pam.c \
              tools/common/slice.c tools/common/merge.c tools/common/slice_items.c tools/common/byte_buffer.c tools/render/render_slice.c tools/common/area_light.c \

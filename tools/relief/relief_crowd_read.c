@@ -1,10 +1,9 @@
-/* relief_crowd_read.c: .lmr files, and lists of their placements. */
+/* relief_crowd_read.c: lists of placements of reliefs. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "../common/checksum.h"
 #include "../common/io_text.h"
 #include "relief_crowd.h"
 
@@ -12,24 +11,6 @@ enum { MOST_PLACED = 1000000, MOST_FILES = 1000 };
 #define FARTHEST    1e6  /* m, below the 2^20 of the library */
 #define LEAST_SCALE 1e-6
 #define MOST_SCALE  1e6
-
-int relief_file_open(lmb_relief *out, file_bytes *bytes, const char *path, report *r)
-{
-    if (!file_read(bytes, path, r)) {
-        return 0;
-    }
-    const int fits = checksum_fits(bytes->data, bytes->size, LMB_RELIEF_HEADER_WORDS);
-    lmb_status status = lmb_relief_swap(bytes->data, bytes->size);
-    if (status == LMB_OK && !fits) {
-        return report_fail(r, "%s: a damaged .lmr file; copy it or bake it again", path);
-    }
-    if (status == LMB_OK) {
-        status = lmb_relief_open(out, bytes->data, bytes->size);
-    }
-    return status == LMB_OK ||
-           report_fail(r, "%s: %s", path, status == LMB_ERR_CAPACITY ? "more views than this build takes"
-                                                                     : "not a whole .lmr file of version 1");
-}
 
 void relief_crowd_free(relief_crowd *c)
 {

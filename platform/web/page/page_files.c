@@ -23,7 +23,10 @@
 #include "../../../tools/picture/image.h"
 #include "../../../tools/picture/io_pam.h"
 #include "../../../tools/relief/relief_compare.h"
+#include "../../../tools/relief/relief_crowd.h"
 #include "../../../tools/relief/relief_path.h"
+#include "../../../tools/relief/relief_sky.h"
+#include "../../../tools/relief/relief_withheld.h"
 #include "../../../tools/relight/relight_contact.h"
 #include "../../../tools/relight/relight_export.h"
 #include "../../../tools/relight/relight_path.h"
@@ -263,13 +266,63 @@ int relief_path_open(key_path *out, const relief_options *o, const lmb_light *li
 {
     return (void)out, (void)o, (void)light, (void)r, 1;
 }
-int relief_path_leads(const key_path *path) { return (void)path, 0; }
+int relief_path_leads(const key_path *path, int what) { return (void)path, (void)what, 0; }
 int relief_along(relief_options *o, const key_path *path, relief_shot *shot, lmb_light *light, const lmb_scene *simple,
                  relief_write *write, report *r)
 {
     return (void)o, (void)path, (void)shot, (void)light, (void)simple, (void)write, (void)r, 0;
 }
 void key_path_free(key_path *path) { (void)path; }
+
+/* --- relief_crowd.h, relief_sky.h, relief_withheld.h: a page draws one relief, without a world ---------------- */
+
+int relief_crowd_read(relief_crowd *out, const char *path, report *r)
+{
+    return (void)out, (void)path, report_fail(r, "a page draws no crowds");
+}
+void relief_crowd_free(relief_crowd *c) { (void)c; }
+uint32_t relief_crowd_see(relief_seen *out, const relief_crowd *crowd, const lmb_view *view)
+{
+    return (void)out, (void)crowd, (void)view, 0;
+}
+size_t crowd_band_take(crowd_band *out, int32_t width) { return (void)out, (void)width, 0; }
+void crowd_band_free(crowd_band *b) { (void)b; }
+lmb_status crowd_band_draw(crowd_band *b, const relief_seen *seen, uint32_t count, const lmb_view *view,
+                           const lmb_kernels *kernels, const lmb_relief_how *how, int32_t first, int32_t past,
+                           lmb_relief_stats *stats)
+{
+    return (void)b, (void)seen, (void)count, (void)view, (void)kernels, (void)how, (void)first, (void)past, (void)stats,
+           LMB_ERR_ARG;
+}
+void crowd_band_tile(lmb_tile *out, const crowd_band *b, int32_t column, int32_t row, int32_t x, int32_t y)
+{
+    (void)out, (void)b, (void)column, (void)row, (void)x, (void)y;
+}
+int relief_sky_open(relief_sky *out, const char *path, const lmb_scene *below, lmb_vec3 eye, int is_quiet, report *r)
+{
+    return (void)out, (void)path, (void)below, (void)eye, (void)is_quiet, report_fail(r, "a page has no --world here");
+}
+void relief_sky_free(relief_sky *s) { (void)s; }
+lmb_status relief_sky_tile(lmb_irradiance *inout, relief_sky_scratch *scratch, const relief_sky *s,
+                           const lmb_kernels *kernels, const lmb_tile *tile, uint64_t of_relief, const lmb_bvh *plain,
+                           const lmb_bvh *both)
+{
+    return (void)inout, (void)scratch, (void)s, (void)kernels, (void)tile, (void)of_relief, (void)plain, (void)both,
+           LMB_ERR_ARG;
+}
+void relief_sky_behind(float rgb[3], const relief_sky *s, const lmb_view *view, int32_t x, int32_t y)
+{
+    (void)rgb, (void)s, (void)view, (void)x, (void)y;
+}
+int relief_photo_read(relief_photo *out, const char *prefix, report *r)
+{
+    return (void)out, (void)prefix, report_fail(r, "a page has no --photo here");
+}
+void relief_photo_free(relief_photo *p) { (void)p; }
+void withheld_measure(withheld_figures *out, const relief_frame *frame, const relief_photo *photo)
+{
+    (void)out, (void)frame, (void)photo;
+}
 
 /* --- area_light.h, mix_*.h: lights have no size, and depth is exact ----------------------------------------------- */
 
