@@ -203,6 +203,7 @@ typedef struct lmb_live_scratch {
     float lift;        /* and how far `off` moves it from the other surface there, m; 0: no such edge */
     lmb_live_rays rays;
     lmb_live_branch waiting[LMB_LIVE_STACK];
+    uint32_t met[2][2][LMB_BOXES]; /* segments that meet the boxes of the last two nodes, a bit each */
     uint32_t last[LMB_LIVE_LAST]; /* index in the BVH, plus 1: triangles that blocked many segments recently; tested
                                      first */
     lmb_target window; /* used by src/frame */

@@ -15,13 +15,17 @@
 #define MUCH 2            /* a triangle that blocks this many segments is remembered */
 #define END 1.00001000f   /* 1 / .99999: triangles beyond .99999 of a segment do not block it */
 
+/* Leaves wait until the next node was tested, so that their triangles are in the cache by then. */
 typedef struct traversal {
     const lmb_kernels *kernels;
     const lmb_bvh *bvh;
     lmb_live_scratch *scratch;
     const lmb_live_receiver *receiver;
     uint64_t left; /* segments not blocked so far */
-    int32_t waiting;
+    float noise;   /* m: no triangle has more: noise_of */
+    int32_t waiting, own; /* own: the current node's half of scratch->met */
+    const lmb_boxes *last; /* the node before, */
+    uint32_t leaves;       /* and the leaves of it that wait */
 } traversal;
 
 /* As in occluded.c: swapping the corners negates the result exactly. */
@@ -30,32 +34,50 @@ static inline lmb_vec3 edge_plane(lmb_vec3 b, lmb_vec3 c, lmb_vec3 edge) { retur
 /* A triangle as seen from the receiver. If the receiver lies in the triangle's plane, the triangle counts as in front
  * and is widened by the rounding error, within its boxes. */
 typedef struct aspect {
-    lmb_vec3 to[3];
     float wider; /* m; 0: the receiver lies off the plane */
     int against; /* segments cross against the normal */
 } aspect;
 
+/* Largest distance of a receiver in a triangle's plane from that plane, by rounding. */
+static inline float noise_of(const lmb_live_receiver *receiver, lmb_vec3 a, lmb_vec3 b, lmb_vec3 c)
+{
+    const lmb_vec3 at = receiver->position;
+    return receiver->noise +
+           LMB_NOISE_TRIANGLE * (largest3(sub3(a, at)) + largest3(sub3(b, at)) + largest3(sub3(c, at)));
+}
+
+/* Bounds noise_of all triangles: rounding keeps the order of distances, and the root's boxes contain all corners. */
+static float max_noise(const lmb_bvh *bvh, const lmb_live_receiver *receiver)
+{
+    const lmb_boxes *root = &bvh->node[0];
+    lmb_vec3 low = vec3(root->low[0][0], root->low[1][0], root->low[2][0]),
+             high = vec3(root->high[0][0], root->high[1][0], root->high[2][0]);
+    for (int i = 1; i < LMB_BOXES; ++i) {
+        low = min3(low, vec3(root->low[0][i], root->low[1][i], root->low[2][i]));
+        high = max3(high, vec3(root->high[0][i], root->high[1][i], root->high[2][i]));
+    }
+    return maxf(noise_of(receiver, low, low, low), noise_of(receiver, high, high, high));
+}
+
 /* Sets the plane of a triangle. Returns 0 if the triangle blocks nothing. */
 static inline int plane_of(aspect *out, lmb_cross_job *job, const traversal *w, const lmb_bvh_triangle *t)
 {
-    const lmb_vec3 *p = t->corner, at = w->receiver->position;
-    const lmb_vec3 to[3] = {sub3(p[0], at), sub3(p[1], at), sub3(p[2], at)};
-    const float ahead = dot3(t->normal, to[0]);
-    const float noise =
-        w->receiver->noise + LMB_NOISE_TRIANGLE * (largest3(to[0]) + largest3(to[1]) + largest3(to[2]));
+    const float ahead = dot3(t->normal, sub3(t->corner[0], w->receiver->position));
     out->wider = 0.0f;
     out->against = ahead < 0.0f;
     job->beyond = absf(ahead) * END;
-    if (!(absf(ahead) > noise)) {
-        const float eye = dot3(t->normal, w->receiver->to_eye);
-        if (!(absf(eye) > 0.0f)) {
-            return 0;
+    if (!(absf(ahead) > w->noise)) {
+        const float noise = noise_of(w->receiver, t->corner[0], t->corner[1], t->corner[2]);
+        if (!(absf(ahead) > noise)) {
+            const float eye = dot3(t->normal, w->receiver->to_eye);
+            if (!(absf(eye) > 0.0f)) {
+                return 0;
+            }
+            out->wider = minf(noise, triangle_margin(t));
+            out->against = eye > 0.0f;
+            job->beyond = noise;
         }
-        out->wider = minf(noise, triangle_margin(t));
-        out->against = eye > 0.0f;
-        job->beyond = noise;
     }
-    memcpy(out->to, to, sizeof to);
     job->normal = out->against ? mul3(t->normal, -1.0f) : t->normal;
     return 1;
 }
@@ -64,8 +86,9 @@ static inline int plane_of(aspect *out, lmb_cross_job *job, const traversal *w, 
  * it. */
 static void set_edges(lmb_cross_job *out, const aspect *a, const traversal *w, const lmb_bvh_triangle *t)
 {
-    const lmb_vec3 *p = t->corner, *to = a->to;
-    out->at = w->receiver->position;
+    const lmb_vec3 *p = t->corner, at = w->receiver->position;
+    const lmb_vec3 to[3] = {sub3(p[0], at), sub3(p[1], at), sub3(p[2], at)};
+    out->at = at;
     if (a->against) {
         out->edge[0] = edge_plane(to[1], to[2], sub3(p[1], p[2]));
         out->edge[1] = edge_plane(to[2], to[0], sub3(p[2], p[0]));
@@ -140,42 +163,67 @@ static void test_leaf(traversal *w, const lmb_boxes *node, int i, uint64_t met)
 
 static inline uint64_t both(uint32_t met[2][LMB_BOXES], int i) { return (uint64_t)met[1][i] << 32 | met[0][i]; }
 
+/* Tests the leaves that wait. */
+static void test_leaves(traversal *w)
+{
+    for (uint32_t boxes = w->leaves; boxes != 0 && w->left != 0; boxes &= boxes - 1) {
+        const int i = lowest_bit(boxes);
+        test_leaf(w, w->last, i, both(w->scratch->met[w->own], i));
+    }
+    w->leaves = 0;
+}
+
+/* Asks for the cache lines of a box's triangles. */
+static inline void ask_triangles(const lmb_bvh *bvh, const lmb_boxes *node, int i)
+{
+    const uint8_t *from = (const uint8_t *)&bvh->triangle[node->first[i]];
+    const size_t bytes = node->count[i] * sizeof bvh->triangle[0];
+    for (size_t line = 0; line < bytes; line += 64) {
+        LIVE_SOON(from + line);
+    }
+    LIVE_SOON(from + bytes - 1);
+}
+
+static inline void ask_node(const lmb_boxes *node)
+{
+    for (int h = 0; h < 3; ++h) {
+        LIVE_SOON(node->low[h]);
+        LIVE_SOON(node->high[h]);
+    }
+    LIVE_SOON(node->first);
+    LIVE_SOON(node->count);
+}
+
 static void test_node(traversal *w, uint32_t at, uint64_t asked)
 {
     const lmb_boxes *node = &w->bvh->node[at];
-    uint32_t met[2][LMB_BOXES];
-    uint32_t boxes = w->kernels->live_boxes(met, &w->scratch->rays.segments, asked, node), inner = 0;
-    for (uint32_t soon = boxes; soon != 0; soon &= soon - 1) {
-        const int i = lowest_bit(soon);
+    uint32_t (*met)[LMB_BOXES] = w->scratch->met[w->own ^ 1], leaves = 0;
+    for (uint32_t boxes = w->kernels->live_boxes(met, &w->scratch->rays.segments, asked, node); boxes != 0;
+         boxes &= boxes - 1) {
+        const int i = lowest_bit(boxes);
         if (node->count[i] > 0) {
-            LIVE_SOON(&w->bvh->triangle[node->first[i]]);
-        } else {
-            const lmb_boxes *next = &w->bvh->node[node->first[i]];
-            for (int h = 0; h < 3; ++h) {
-                LIVE_SOON(next->low[h]);
-                LIVE_SOON(next->high[h]);
-            }
+            ask_triangles(w->bvh, node, i);
+            leaves |= 1u << i;
+        } else if (w->waiting < LMB_LIVE_STACK) {
+            ask_node(&w->bvh->node[node->first[i]]);
+            w->scratch->waiting[w->waiting].node = node->first[i];
+            w->scratch->waiting[w->waiting++].rays = both(met, i);
         }
     }
-    for (; boxes != 0 && w->left != 0; boxes &= boxes - 1) {
-        const int i = lowest_bit(boxes);
-        test_leaf(w, node, i, both(met, i));
-        inner |= (uint32_t)(node->count[i] == 0) << i;
-    }
-    for (; inner != 0 && w->waiting < LMB_LIVE_STACK; inner &= inner - 1) {
-        const int i = lowest_bit(inner);
-        w->scratch->waiting[w->waiting].node = node->first[i];
-        w->scratch->waiting[w->waiting++].rays = both(met, i);
-    }
+    test_leaves(w);
+    w->own ^= 1;
+    w->last = node;
+    w->leaves = leaves;
 }
 
 uint64_t lmb_live_blocked(const lmb_kernels *kernels, lmb_live_scratch *scratch, const lmb_bvh *bvh,
                           const lmb_live_receiver *receiver, uint64_t asked)
 {
-    traversal w = {kernels, bvh, scratch, receiver, asked, 0};
+    traversal w = {kernels, bvh, scratch, receiver, asked, 0.0f, 0, 0, NULL, 0};
     if (bvh == NULL || bvh->node_count == 0 || asked == 0) {
         return 0;
     }
+    w.noise = max_noise(bvh, receiver);
     for (int i = 0; i < LMB_LIVE_LAST && w.left != 0; ++i) {
         const uint32_t triangle = scratch->last[i];
         if (triangle != 0 && triangle <= bvh->triangle_count) {
@@ -191,6 +239,7 @@ uint64_t lmb_live_blocked(const lmb_kernels *kernels, lmb_live_scratch *scratch,
             test_node(&w, next.node, next.rays & w.left);
         }
     }
+    test_leaves(&w);
     return asked & ~w.left;
 }
 
