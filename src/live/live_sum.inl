@@ -87,6 +87,14 @@ static inline void live_keep_off(lmb_live_scratch *s, const lmb_live *live, cons
     }
 }
 
+/* Can live_keep_off move the receiver? A point's distance and area are also in the chunk, so most points are not read.
+ * Parts of a point repeat the test of the point, so this may return anything for them. */
+static inline int live_is_beside(const lmb_live_chunk *c, int i, const lmb_live_job *job)
+{
+    const lmb_vec3 d = sub3(job->position, vec3(c->place[0][i], c->place[1][i], c->place[2][i]));
+    return dot3(d, d) < 2.0f * c->radius2[i];
+}
+
 /* Requests the parts of near nodes in chunk k of the cut; the nodes themselves then give no light. */
 static inline void live_divide(lmb_live_scratch *s, const lmb_live *live, int32_t k, uint32_t near,
                                const lmb_live_job *job)
@@ -94,7 +102,7 @@ static inline void live_divide(lmb_live_scratch *s, const lmb_live *live, int32_
     const lmb_live_chunk *c = s->chunk[k];
     for (; near != 0; near &= near - 1) {
         const int i = lowest_bit(near);
-        if (c->count[i] == (LMB_LIVE_LEAF | 1u) && job->can_move) {
+        if (c->count[i] == (LMB_LIVE_LEAF | 1u) && job->can_move && live_is_beside(c, i, job)) {
             live_keep_off(s, live, c, i, job);
         }
         if ((c->count[i] & LMB_LIVE_LEAF) != 0) {
@@ -415,8 +423,13 @@ static void KERNEL(live_targets)(lmb_live_scratch *s, const lmb_live *live, int3
         if (s->value[e][i] > step && parts != 0 && (parts & LMB_LIVE_LEAF) == 0) {
             const float left = clampf(p.rest[k] / s->value[e][i], 0.0f, 1.0f);
             c = live_part_at(&i, live, c->first[i], parts, (1.0f - left) * c->power[i]);
+            LIVE_SOON(&c->target[i]);
         }
-        live_put_target(&s->rays, k, c, i);
+        s->pick[k].chunk = c;
+        s->pick[k].lane = i;
+    }
+    for (int32_t k = 0; k < p.count; ++k) {
+        live_put_target(&s->rays, k, s->pick[k].chunk, s->pick[k].lane);
     }
     s->targets = p.count;
     live_towards(s);
@@ -466,21 +479,25 @@ static void KERNEL(live_share)(float all[3], float some[3], const lmb_live_rays 
     }
 }
 
+/* Narrows the ranges of a ray in boxes by one axis. */
+LANE_INLINE void live_slab(lane *from, lane *to, lane low, lane high, float per)
+{
+    const lane along = lane_splat(per), a = lane_mul(low, along), b = lane_mul(high, along);
+    *from = lane_max(*from, lane_min(a, b));
+    *to = lane_min(*to, lane_max(a, b));
+}
+
 /* Mask bits of rays 0 .. 31 that meet boxes i, i + 1, ...: `low`, `high` are the boxes' sides, from the rays' origin.
- * Lanes are boxes: few rays reach most nodes. */
-LANE_INLINE lanei live_met(const lane low[3], const lane high[3], lane_mask some, const lmb_segments *s, int first,
-                           uint32_t asked)
+ * Lanes are boxes: few rays reach most nodes. Unrolled by axis, so that the sides stay in registers. */
+LANE_INLINE lanei live_met(lane3 low, lane3 high, lane_mask some, const lmb_segments *s, int first, uint32_t asked)
 {
     lanei out = lanei_splat(0);
     for (uint32_t bits = asked; bits != 0; bits &= bits - 1) {
-        const int k = lowest_bit(bits);
+        const int k = first + lowest_bit(bits);
         lane from = lane_splat(0.0f), to = lane_splat(1.0f);
-        for (int h = 0; h < 3; ++h) {
-            const lane along = lane_splat(s->per[h][first + k]);
-            const lane a = lane_mul(low[h], along), b = lane_mul(high[h], along);
-            from = lane_max(from, lane_min(a, b));
-            to = lane_min(to, lane_max(a, b));
-        }
+        live_slab(&from, &to, low.x, high.x, s->per[0][k]);
+        live_slab(&from, &to, low.y, high.y, s->per[1][k]);
+        live_slab(&from, &to, low.z, high.z, s->per[2][k]);
         const lane_mask met = mask_and(some, crossed_some(from, to));
         out = lanei_pick(met, lanei_or(out, lanei_splat((int32_t)(bits & (~bits + 1)))), out);
     }
@@ -494,19 +511,19 @@ static uint32_t KERNEL(live_boxes)(uint32_t out[2][LMB_BOXES], const lmb_segment
     const lane3 at = lane3_of(s->at);
     uint32_t any = 0;
     for (int i = 0; i < LMB_BOXES; i += LANES) {
-        lane low[3], high[3];
-        low[0] = lane_load(boxes->low[0] + i);
-        high[0] = lane_load(boxes->high[0] + i);
-        const lane_mask some = lane_le(low[0], high[0]);
+        lane3 low, high;
+        low.x = lane_load(boxes->low[0] + i);
+        high.x = lane_load(boxes->high[0] + i);
+        const lane_mask some = lane_le(low.x, high.x);
         if (mask_bits(some) == 0) { /* no more boxes */
             break;
         }
-        low[0] = lane_sub(low[0], at.x);
-        high[0] = lane_sub(high[0], at.x);
-        low[1] = lane_sub(lane_load(boxes->low[1] + i), at.y);
-        high[1] = lane_sub(lane_load(boxes->high[1] + i), at.y);
-        low[2] = lane_sub(lane_load(boxes->low[2] + i), at.z);
-        high[2] = lane_sub(lane_load(boxes->high[2] + i), at.z);
+        low.x = lane_sub(low.x, at.x);
+        high.x = lane_sub(high.x, at.x);
+        low.y = lane_sub(lane_load(boxes->low[1] + i), at.y);
+        high.y = lane_sub(lane_load(boxes->high[1] + i), at.y);
+        low.z = lane_sub(lane_load(boxes->low[2] + i), at.z);
+        high.z = lane_sub(lane_load(boxes->high[2] + i), at.z);
         const lanei one = live_met(low, high, some, s, 0, (uint32_t)asked),
                     two = live_met(low, high, some, s, 32, (uint32_t)(asked >> 32));
         lanei_store((int32_t *)(void *)(out[0] + i), one);
