@@ -150,13 +150,6 @@ static const lmb_live_facet *facet_of(const live_look *l, uint32_t id)
                              (uint32_t)(l->face - l->live->face), id);
 }
 
-/* A part of a point's block: position in the map, and id there. */
-typedef struct live_spot {
-    float u, v; /* texels */
-    float over; /* number of parts at this position, unless they move towards a neighbour */
-    uint32_t id;
-} live_spot;
-
 /* Do two triangles lie in one plane? */
 static int goes_on(live_look *l, uint32_t id, uint32_t other)
 {
@@ -181,65 +174,132 @@ static float towards(live_look *l, int32_t x, int32_t y, uint32_t id, float off)
     return other == id || goes_on(l, id, other) ? off : 0.0f;
 }
 
-/* Part (x, y) of a grid of 4^level a side. `wide`: the part's side, texels. */
-static live_spot spot_of(live_look *l, const lmb_live_point *p, uint32_t x, uint32_t y, float wide)
-{
-    const lmb_live_face *f = l->face;
-    live_spot s;
-    const float u = (float)(p->column * f->each) + ((float)x + 0.5f) * wide,
-                v = (float)(p->row * f->each) + ((float)y + 0.5f) * wide;
-    const int32_t tx = clampi((int32_t)u, 0, f->size - 1), ty = clampi((int32_t)v, 0, f->size - 1);
-    float du = u - ((float)tx + 0.5f), dv = v - ((float)ty + 0.5f);
-    s.id = live_id(&f->id, tx, ty);
-    s.over = 1.0f;
-    if (wide >= 1.0f) {
-        du = dv = 0.0f;
-    } else if (s.id != 0) {
-        const int32_t nx = du < 0.0f ? tx - 1 : tx + 1, ny = dv < 0.0f ? ty - 1 : ty + 1;
-        du = towards(l, nx, ty, s.id, du);
-        dv = towards(l, tx, ny, s.id, dv);
-        dv = du != 0.0f && dv != 0.0f ? towards(l, nx, ny, s.id, dv) : dv;
-        s.over = (du == 0.0f ? 0.5f / wide : 1.0f) * (dv == 0.0f ? 0.5f / wide : 1.0f);
-    }
-    s.u = (float)tx + 0.5f + du;
-    s.v = (float)ty + 0.5f + dv;
-    return s;
-}
-
 /* The sixteen parts of a part. */
 typedef struct live_parts {
     lmb_live_spots at;
     uint32_t id[LMB_LIVE_NODES], part[LMB_LIVE_NODES];
-    float over[LMB_LIVE_NODES];
+    float over[LMB_LIVE_NODES]; /* number of parts at this position, unless they move towards a neighbour */
     uint32_t shown; /* mask of those that show a surface */
 } live_parts;
+
+enum { PARTS_SIDE = 4 };
+
+/* Middles of four parts side by side along an axis of the map. */
+typedef struct part_steps {
+    int32_t texel[PARTS_SIDE];
+    float off[PARTS_SIDE]; /* texels from a texel's middle */
+} part_steps;
+
+/* first: the first part of a grid in a block that starts at texel `from`. `wide`: a part's side, texels. */
+static void set_part_steps(part_steps *out, int32_t from, uint32_t first, float wide, int32_t size)
+{
+    for (uint32_t i = 0; i < PARTS_SIDE; ++i) {
+        const float at = (float)from + ((float)(first + i) + 0.5f) * wide;
+        out->texel[i] = clampi((int32_t)at, 0, size - 1);
+        out->off[i] = wide >= 1.0f ? 0.0f : at - ((float)out->texel[i] + 0.5f);
+    }
+}
+
+/* Do the texels of sixteen parts, and the texels around them, all show triangle `id`? */
+static int are_parts_amid(const lmb_live_face *f, const part_steps *x, const part_steps *y, uint32_t id)
+{
+    const int32_t left = x->texel[0] - 1, right = x->texel[PARTS_SIDE - 1] + 1, top = y->texel[0] - 1,
+                  low = y->texel[PARTS_SIDE - 1] + 1;
+    int amid = id != 0 && left >= 0 && top >= 0 && right < f->size && low < f->size;
+    for (int32_t v = top; v <= low && amid; ++v) {
+        for (int32_t u = left; u <= right && amid; ++u) {
+            amid = live_id(&f->id, u, v) == id;
+        }
+    }
+    return amid;
+}
+
+/* Moves part i towards the texel's middle if it has a neighbour with another plane. `wide`: the part's side, texels. */
+static void move_part(live_parts *p, float place[2], live_look *l, int i, const part_steps *x, const part_steps *y,
+                      float wide)
+{
+    const int32_t tx = x->texel[i % PARTS_SIDE], ty = y->texel[i / PARTS_SIDE];
+    float du = x->off[i % PARTS_SIDE], dv = y->off[i / PARTS_SIDE];
+    const int32_t nx = du < 0.0f ? tx - 1 : tx + 1, ny = dv < 0.0f ? ty - 1 : ty + 1;
+    if (p->id[i] != 0) {
+        du = towards(l, nx, ty, p->id[i], du);
+        dv = towards(l, tx, ny, p->id[i], dv);
+        dv = du != 0.0f && dv != 0.0f ? towards(l, nx, ny, p->id[i], dv) : dv;
+        p->over[i] = (du == 0.0f ? 0.5f / wide : 1.0f) * (dv == 0.0f ? 0.5f / wide : 1.0f);
+    }
+    place[0] = (float)tx + 0.5f + du;
+    place[1] = (float)ty + 0.5f + dv;
+}
+
+/* Sets the ids of the texels in which sixteen parts lie. Returns 1 if all of them are the same. */
+static int set_part_ids(uint32_t id[LMB_LIVE_NODES], const lmb_live_face *f, const part_steps *x, const part_steps *y)
+{
+    uint32_t differ = 0;
+    for (int i = 0; i < LMB_LIVE_NODES; ++i) {
+        const int u = i % PARTS_SIDE, v = i / PARTS_SIDE;
+        id[i] = v > 0 && y->texel[v] == y->texel[v - 1]   ? id[i - PARTS_SIDE]
+                : u > 0 && x->texel[u] == x->texel[u - 1] ? id[i - 1]
+                                                          : live_id(&f->id, x->texel[u], y->texel[v]);
+        differ |= id[i] ^ id[0];
+    }
+    return differ == 0;
+}
+
+/* Sets places in the map, as view coordinates, and ids. Most parts lie amid texels of one triangle. */
+static int place_parts(live_parts *out, live_look *l, const lmb_live_point *p, uint32_t x, uint32_t y, float wide)
+{
+    const lmb_live_face *f = l->face;
+    const float per = 2.0f / (float)f->size;
+    part_steps across, down;
+    set_part_steps(&across, p->column * f->each, x, wide, f->size);
+    set_part_steps(&down, p->row * f->each, y, wide, f->size);
+    const int same = set_part_ids(out->id, f, &across, &down),
+              stay = wide >= 1.0f || (same && are_parts_amid(f, &across, &down, out->id[0]));
+    for (int i = 0; i < LMB_LIVE_NODES; ++i) {
+        out->over[i] = 1.0f;
+    }
+    if (stay) {
+        float sx[PARTS_SIDE], sy[PARTS_SIDE];
+        for (int i = 0; i < PARTS_SIDE; ++i) {
+            sx[i] = (((float)across.texel[i] + 0.5f + across.off[i]) * per - 1.0f) * f->view.half_width;
+            sy[i] = (1.0f - ((float)down.texel[i] + 0.5f + down.off[i]) * per) * f->view.half_height;
+        }
+        for (int i = 0; i < LMB_LIVE_NODES; ++i) {
+            out->at.sx[i] = sx[i % PARTS_SIDE];
+            out->at.sy[i] = sy[i / PARTS_SIDE];
+        }
+        return same;
+    }
+    for (int i = 0; i < LMB_LIVE_NODES; ++i) {
+        float place[2];
+        move_part(out, place, l, i, &across, &down, wide);
+        out->at.sx[i] = (place[0] * per - 1.0f) * f->view.half_width;
+        out->at.sy[i] = (1.0f - place[1] * per) * f->view.half_height;
+    }
+    return same;
+}
 
 static void find_parts(live_parts *out, live_look *l, const lmb_live_point *p, uint32_t part)
 {
     const lmb_live_face *f = l->face;
     const uint32_t level = (part >> 2 * PART_BITS) + 1, mask = (1u << PART_BITS) - 1,
-                   x = (part >> PART_BITS & mask) * 4, y = (part & mask) * 4;
-    const float wide = (float)(f->each * p->wide) / (float)(1u << 2 * level), per = 2.0f / (float)f->size;
+                   x = (part >> PART_BITS & mask) * PARTS_SIDE, y = (part & mask) * PARTS_SIDE;
     uint32_t left = 0;
     memset(&out->at, 0, sizeof out->at);
+    const int one = place_parts(out, l, p, x, y, (float)(f->each * p->wide) / (float)(1u << 2 * level));
     for (uint32_t i = 0; i < LMB_LIVE_NODES; ++i) {
-        const live_spot to = spot_of(l, p, x + i % 4, y + i / 4, wide);
-        out->at.sx[i] = (to.u * per - 1.0f) * f->view.half_width;
-        out->at.sy[i] = (1.0f - to.v * per) * f->view.half_height;
-        out->id[i] = to.id;
-        out->over[i] = to.over;
-        out->part[i] = part_of(level, x + i % 4, y + i / 4);
-        left |= (uint32_t)(to.id != 0) << i;
+        out->part[i] = part_of(level, x + i % PARTS_SIDE, y + i / PARTS_SIDE);
+        left |= (uint32_t)(out->id[i] != 0) << i;
     }
     left &= level == 1 ? p->shows : 0xffffu;
     for (out->shown = 0; left != 0;) {
         const uint32_t id = out->id[lowest_bit(left)];
         const lmb_live_facet *on = facet_of(l, id);
         uint32_t same = 0;
-        for (int i = 0; i < LMB_LIVE_NODES; ++i) {
+        for (int i = 0; i < LMB_LIVE_NODES && !one; ++i) {
             same |= (uint32_t)(out->id[i] == id) << i;
         }
-        same &= left;
+        same = one ? left : same & left;
         left &= ~same;
         if (on != NULL) {
             const lmb_live_surface plane = {&f->view, on->corner, on->normal, {on->side[0], on->side[1]},
