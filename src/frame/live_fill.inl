@@ -116,31 +116,35 @@ static inline void corners_range(float range[3][2], const lmb_live_cell *p)
     }
 }
 
+/* Light of a corner, extrapolated by its slopes. */
+LANE_INLINE lane corner_on(const lmb_live_sample *s, int h, lane dx, lane dy)
+{
+    return lane_add(lane_splat(s->light[h]), lane_add(lane_mul(lane_splat(s->slope[0][h]), dx),
+                                                      lane_mul(lane_splat(s->slope[1][h]), dy)));
+}
+
 /* As corners_light, when all corners agree fully with all pixels. It explains all asked pixels. */
 LANE_INLINE void corners_even(lmb_irradiance *inout, const lmb_live_cell *p, int k, uint32_t asked,
                               float range[3][2])
 {
     const lane zero = lane_splat(0.0f), one = lane_splat(1.0f), half = lane_splat(0.5f);
     const lane x = lane_column(k), y = lane_row(k);
-    const lane dx[2] = {lane_sub(x, lane_splat(p->x[0])), lane_sub(x, lane_splat(p->x[1]))},
-               dy[2] = {lane_sub(y, lane_splat(p->y[0])), lane_sub(y, lane_splat(p->y[1]))};
-    const lane u = lane_mul(dx[0], lane_splat(p->per_x)), v = lane_mul(dy[0], lane_splat(p->per_y));
-    const lane across[2] = {lane_sub(one, u), u}, along[2] = {lane_sub(one, v), v};
-    lane weight[4], sum = zero;
-    for (int i = 0; i < 4; ++i) {
-        weight[i] = lane_add(lane_max(lane_mul(across[i & 1], along[i >> 1]), zero), lane_splat(0.001f));
-        sum = lane_add(sum, weight[i]);
-    }
-    const lane per = lane_div(one, sum);
-    for (int h = 0; h < 3; ++h) {
-        lane light = zero;
-        for (int i = 0; i < 4; ++i) {
-            const lmb_live_sample *s = p->corner[i];
-            const lane on = lane_add(lane_splat(s->light[h]),
-                                     lane_add(lane_mul(lane_splat(s->slope[0][h]), lane_mul(half, dx[i & 1])),
-                                              lane_mul(lane_splat(s->slope[1][h]), lane_mul(half, dy[i >> 1]))));
-            light = lane_add(light, lane_mul(weight[i], on));
-        }
+    const lane dx0 = lane_sub(x, lane_splat(p->x[0])), dx1 = lane_sub(x, lane_splat(p->x[1])),
+               dy0 = lane_sub(y, lane_splat(p->y[0])), dy1 = lane_sub(y, lane_splat(p->y[1]));
+    const lane u = lane_mul(dx0, lane_splat(p->per_x)), v = lane_mul(dy0, lane_splat(p->per_y)),
+               left = lane_sub(one, u), above = lane_sub(one, v), min = lane_splat(0.001f);
+    const lane w0 = lane_add(lane_max(lane_mul(left, above), zero), min),
+               w1 = lane_add(lane_max(lane_mul(u, above), zero), min),
+               w2 = lane_add(lane_max(lane_mul(left, v), zero), min),
+               w3 = lane_add(lane_max(lane_mul(u, v), zero), min);
+    const lane per = lane_div(one, lane_add(lane_add(lane_add(w0, w1), w2), w3));
+    const lane hx0 = lane_mul(half, dx0), hx1 = lane_mul(half, dx1), hy0 = lane_mul(half, dy0),
+               hy1 = lane_mul(half, dy1);
+    for (int h = 0; h < 3; ++h) { /* the corners are unrolled: gcc -O2 keeps the rest of a loop in memory */
+        lane light = lane_mul(w0, corner_on(p->corner[0], h, hx0, hy0));
+        light = lane_add(light, lane_mul(w1, corner_on(p->corner[1], h, hx1, hy0)));
+        light = lane_add(light, lane_mul(w2, corner_on(p->corner[2], h, hx0, hy1)));
+        light = lane_add(light, lane_mul(w3, corner_on(p->corner[3], h, hx1, hy1)));
         light = lane_hold(lane_mul(light, per), lane_splat(range[h][0]), lane_splat(range[h][1]));
         lane_store(inout->rgb[h] + k, lane_pick(mask_of_bits(asked), light, lane_load(inout->rgb[h] + k)));
     }
