@@ -629,6 +629,29 @@ static void behind_a_thin_wall_is_dark(void)
     }
 }
 
+/* By rounding, half of the places on a slanted sheet lie behind it. They count as on the viewer's side, so the sheet
+ * does not block their light, whether or not it is named as their triangle. */
+static void in_a_plane_is_lit(void)
+{
+    test_rng r = {5};
+    const lmb_light light = point_light(vec3(0.3f, 1.7f, 0.2f));
+    int differ = 0, lit = 0;
+    world_begin(0.7f, 0.7f, 0.7f);
+    world_quad(vec3(0.013f, 0.97f, 0.021f), vec3(0.31f, 0.17f, 0.07f), vec3(-0.11f, 0.13f, 0.33f));
+    world_box(vec3(0, 1, 0), 1.0f);
+    light_world(&light, 1);
+    for (int i = 0; i < 2000; ++i) {
+        lmb_live_receiver at = place_on(test_random(&r) % 2, vec3(0.1f, i % 2 == 0 ? 1.8f : 0.1f, 0.2f), &r);
+        float named[3], unnamed[3];
+        receive(named, picked_kernels(), &at, 1);
+        at.id = 0;
+        receive(unnamed, picked_kernels(), &at, 1);
+        differ += memcmp(named, unnamed, sizeof named) != 0;
+        lit += named[0] > 0.0f;
+    }
+    CHECK_MSG(differ == 0 && lit > 1000, "%d differ; %d are lit", differ, lit);
+}
+
 /* The number of back ends whose light differs from that of the first one. */
 static int differing_backends(const lmb_live_receiver *at)
 {
@@ -1211,6 +1234,7 @@ void test_live(void)
     needles_without_area();
     under_a_sheet_is_dark();
     behind_a_thin_wall_is_dark();
+    in_a_plane_is_lit();
     same_bytes();
     steady_light_is_right();
     steady_bytes();
