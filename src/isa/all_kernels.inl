@@ -110,6 +110,8 @@ const lmb_kernels KERNEL(lmb_kernels) = {
     KERNEL(bin_box),
 #endif
 #if LMB_TREES
+    MASKED_SEEN_KERNEL,
+    MASKED_PARTS_KERNEL,
     MASKED_KERNEL,
     KERNEL(gather_cut),
     KERNEL(node_bounds),

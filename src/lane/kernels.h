@@ -548,10 +548,17 @@ typedef struct lmb_masked_job {
     float w_min, w_max;
     float alpha[3], u[3], v[3];
     float cutoff;
+    int32_t hole, solid; /* samples of texels with codes under `hole` are holes, of codes from `solid` on are opaque */
     float behind; /* factor of depths, at most 1 */
-    int is_solid; /* 1: the tile has no hole */
+    int is_solid; /* 1: the tile has no hole; for the caller */
     const lmb_texture *texture; /* RGBA8 */
 } lmb_masked_job;
+
+/* Pairs of a tile's rows, one bit for each pixel. */
+typedef struct lmb_masked_parts {
+    uint64_t hole, solid;
+    int32_t gain; /* pairs that are one of both, less 1 */
+} lmb_masked_parts;
 #endif
 
 struct lmb_kernels {
@@ -618,8 +625,15 @@ struct lmb_kernels {
     float (*bin_box)(lmb_tile_box *out, const lmb_setup_job *job, const lmb_bin_block *block);
 #endif
 #if LMB_TREES
-    /* Draws a triangle with a mask into a tile. NULL in plain C, where it would save nothing. */
-    void (*fill_masked)(const lmb_fill_tile *tile, const lmb_fill_job *job, const lmb_masked_job *masked);
+    /* Returns the pixels of a tile that a triangle with a mask covers, and that are nearer than the tile's depths.
+     * Reads only `behind` of the last argument. NULL in plain C, as are the next two: they would save nothing. */
+    uint64_t (*masked_seen)(const lmb_fill_tile *tile, const lmb_fill_job *job, const lmb_masked_job *masked);
+    /* Finds pairs of rows of a tile inside all edges that are all hole or all solid, among those with pixels in `seen`,
+     * by the texels that they can sample. */
+    void (*masked_parts)(lmb_masked_parts *out, const lmb_masked_job *masked, uint64_t seen);
+    /* Draws the pixels in `seen`. solid: those of whole pairs of rows that need no test of alpha. */
+    void (*fill_masked)(const lmb_fill_tile *tile, const lmb_fill_job *job, const lmb_masked_job *masked,
+                        uint64_t seen, uint64_t solid);
     /* Adds the light of emitters that some pixels see. `pairs` is scratch. */
     void (*gather_cut)(lmb_irradiance *inout, float (*pairs)[LMB_GATHER_PAIRS], const lmb_tile *tile,
                        const lmb_emitter *emitters, int32_t count);

@@ -305,6 +305,26 @@ static inline void lane_put_u16(uint16_t *p, int32_t step, uint32_t id, lane_mas
 {
     avx512_put_rows_u16(p, step, _mm256_mask_blend_epi16(m, avx512_rows_u16(p, step), _mm256_set1_epi16((short)id)));
 }
+/* Words of 8 columns and 4 rows, of an array with rows of `step` bytes. Word 8 r + c is that of row r and column c. */
+#define LANE_HAS_BLOCKS 1
+typedef struct lanei_block {
+    __m512i upper, lower;
+} lanei_block;
+static inline lanei_block lanei_block_of(const uint8_t *first, size_t step)
+{
+    const __m256i a = _mm256_loadu_si256((const __m256i *)(const void *)first),
+                  b = _mm256_loadu_si256((const __m256i *)(const void *)(first + step)),
+                  c = _mm256_loadu_si256((const __m256i *)(const void *)(first + 2 * step)),
+                  d = _mm256_loadu_si256((const __m256i *)(const void *)(first + 3 * step));
+    lanei_block r;
+    r.upper = _mm512_inserti64x4(_mm512_castsi256_si512(a), b, 1);
+    r.lower = _mm512_inserti64x4(_mm512_castsi256_si512(c), d, 1);
+    return r;
+}
+static inline lanei lanei_block_at(lanei_block b, lanei at) { return _mm512_permutex2var_epi32(b.upper, at, b.lower); }
+/* The least of the lanes in a mask. */
+static inline int32_t lanei_lowest_of(lane_mask m, lanei a) { return _mm512_mask_reduce_min_epi32(m, a); }
+
 /* Ids of a tile are not read back while the tile is drawn, so a masked store is faster. Other stores blend all 16
  * lanes, because clang 14 splits the upper half of a mask through memory. */
 static inline void lane_put_u32(uint32_t *p, int32_t step, uint32_t id, lane_mask m)

@@ -26,6 +26,8 @@
 #define CODES_BEHIND  2.0f
 #define MIN_TILES_AHEAD 8 /* triangles of fewer tiles are not drawn ahead */
 
+#define ALPHA_MARGIN 1.001f /* of alpha, for rounding of samples, of their weights and of codes */
+
 /* Max texels read to test whether a tile is all hole or all solid. Its 64 pixels read 256. */
 #define TILE_TEXELS 128u
 
@@ -49,7 +51,8 @@ enum { COVERS_SOME = 0, COVERS_UNKNOWN = 4 };
 typedef struct masked_surface {
 #if LMB_TREES
     lmb_masked_job job; /* whole if `batches`; otherwise only `behind` is set */
-    int batches;        /* the kernel fills whole tiles */
+    int16_t batches;    /* 1: the kernels fill whole tiles */
+    int16_t luck;       /* whether tests of texels by pairs of rows paid so far */
     int misses;         /* blocks that may still be neither hole nor solid before no more are tested */
 #endif
     lmb_rays rays;
@@ -241,12 +244,6 @@ static void fill_tile_masked(const lmb_fill_context *c, const lmb_fill_tile *til
                              masked_surface *s)
 {
     const int32_t *e = job->e, *ex = job->ex, *ey = job->ey;
-#if LMB_TREES
-    if (s->batches) { /* tests of a single tile would cost more than its pixels */
-        c->kernels->fill_masked(tile, job, &s->job);
-        return;
-    }
-#endif
     for (int32_t y = 0; y < LMB_TILE && s->part != LMB_COVERS_NONE; ++y) {
         int32_t e0 = e[0] + ey[0] * y, e1 = e[1] + ey[1] * y, e2 = e[2] + ey[2] * y;
         for (int32_t x = 0; x < LMB_TILE; ++x, e0 += ex[0], e1 += ex[1], e2 += ex[2]) {
@@ -257,22 +254,35 @@ static void fill_tile_masked(const lmb_fill_context *c, const lmb_fill_tile *til
     }
 }
 
-/* Returns 1 and sets the job's edges, or 0 if the tile lies outside one. (x, y): the tile's first pixel, 24.8. */
+/* Returns 1 and sets edge i of the job, or 0 if the tile lies outside. e: at the tile's first pixel. */
+static inline int enter_edge(lmb_fill_job *job, const lmb_setup *s, int i, int64_t e)
+{
+    const int32_t reach = LMB_TILE - 1, ex = s->ex[i], ey = s->ey[i];
+    const int64_t low = e + reach * ((ex < 0 ? ex : 0) + (ey < 0 ? ey : 0));
+    if (e + reach * ((ex > 0 ? ex : 0) + (ey > 0 ? ey : 0)) < 0) {
+        return 0;
+    }
+    job->e[i] = low >= 0 ? 0 : (int32_t)e;
+    job->ex[i] = low >= 0 ? 0 : ex;
+    job->ey[i] = low >= 0 ? 0 : ey;
+    return 1;
+}
+
+/* The same of all edges. (x, y): the tile's first pixel, 24.8. */
 static int enter_tile(lmb_fill_job *job, const lmb_setup *s, int32_t x_24_8, int32_t y_24_8)
 {
-    const int32_t reach = LMB_TILE - 1;
     for (int i = 0; i < 3; ++i) {
-        const int32_t ex = s->ex[i], ey = s->ey[i];
-        const int64_t e = setup_edge(s, i, x_24_8, y_24_8);
-        const int64_t low = e + reach * ((ex < 0 ? ex : 0) + (ey < 0 ? ey : 0));
-        if (e + reach * ((ex > 0 ? ex : 0) + (ey > 0 ? ey : 0)) < 0) {
+        if (!enter_edge(job, s, i, setup_edge(s, i, x_24_8, y_24_8))) {
             return 0;
         }
-        job->e[i] = low >= 0 ? 0 : (int32_t)e;
-        job->ex[i] = low >= 0 ? 0 : ex;
-        job->ey[i] = low >= 0 ? 0 : ey;
     }
     return 1;
+}
+
+/* Depth at a tile's first pixel. */
+static float tile_depth(const lmb_setup *s, int32_t x_24_8, int32_t y_24_8)
+{
+    return (float)(s->d_origin + s->d_x * (x_24_8 * (1.0 / 256.0)) + s->d_y * (y_24_8 * (1.0 / 256.0)));
 }
 
 /* First and last tile, inside the window, of a box in 24.8 from the frame's centre. origin: position of the frame's
@@ -301,11 +311,20 @@ NOINLINE int set_surface(masked_surface *out, const lmb_fill_context *c, uint32_
 }
 
 #if LMB_TREES
+/* The least code 0 .. 256 of alpha that is at least `alpha`. */
+static int32_t code_limit(float alpha)
+{
+    const float code = clampf(alpha * 255.0f, 0.0f, 256.0f);
+    const int32_t whole = (int32_t)code;
+    return whole + ((float)whole < code);
+}
+
 /* Sets the kernel's job, if there is a kernel for the surface. */
 static void set_masked_job(masked_surface *s, const lmb_fill_context *c)
 {
     lmb_masked_job *j = &s->job;
     s->batches = c->kernels->fill_masked != NULL && s->texture != NULL && !(LMB_MULTISAMPLE && s->blends);
+    s->luck = 0;
     j->texture = s->texture;
     j->rays = &s->rays;
     j->corner = s->plane.corner;
@@ -321,6 +340,11 @@ static void set_masked_job(masked_surface *s, const lmb_fill_context *c)
         j->u[k] = s->alpha.u[k];
         j->v[k] = s->alpha.v[k];
     }
+    const float largest = maxf(maxf(j->alpha[0], j->alpha[1]), j->alpha[2]),
+                smallest = minf(minf(j->alpha[0], j->alpha[1]), j->alpha[2]);
+    const int is_weighed = smallest > 0.0f && is_sane(largest);
+    j->hole = is_weighed ? code_limit(j->cutoff / (largest * ALPHA_MARGIN)) : 0;
+    j->solid = is_weighed ? code_limit(j->cutoff * ALPHA_MARGIN / smallest) : 256;
 }
 
 /* 1 if the surface is entirely a hole. Reading a texel costs about a fiftieth of drawing a pixel, so more texels than
@@ -382,11 +406,16 @@ static int set_tile(lmb_fill_tile *out, lmb_fill_job *job, masked_surface *surfa
 #if LMB_TREES
     out->id_format = c->is_ahead ? LMB_FORMAT_NONE : out->id_format;
 #endif
-    job->d = (float)(s->d_origin + s->d_x * (x_24_8 * (1.0 / 256.0)) + s->d_y * (y_24_8 * (1.0 / 256.0)));
+    job->d = tile_depth(s, x_24_8, y_24_8);
     if (LMB_MULTISAMPLE) {
         surface->x = x;
         surface->y = y;
     }
+#if LMB_TREES
+    if (surface->batches) {
+        return 1; /* the rays are set if they are used */
+    }
+#endif
     lmb_resolve_rays(&surface->rays, c->view, x, y);
     return 1;
 }
@@ -483,6 +512,38 @@ NOINLINE int parts_next(tile_range *out, tile_parts *inout, const tile_range *al
 }
 #endif
 
+#if LMB_TREES
+enum {
+    MIN_PAIR_PIXELS = 9, /* of a tile: with fewer, pairs of rows are not tested */
+    MAX_LUCK = 8,
+    UNLUCKY_EACH = 8 /* without luck, only some tiles test pairs of rows */
+};
+
+/* Tile (tx, ty) of the window by the kernels. */
+NOINLINE void fill_by_kernels(const lmb_fill_context *c, const lmb_fill_tile *tile, const lmb_fill_job *job,
+                            masked_surface *s, int32_t tx, int32_t ty)
+{
+    uint64_t seen = c->kernels->masked_seen(tile, job, &s->job);
+    if (seen == 0) {
+        return;
+    }
+    const int is_inside = (job->ex[0] | job->ex[1] | job->ex[2] | job->ey[0] | job->ey[1] | job->ey[2]) == 0;
+    lmb_masked_parts parts = {0, s->job.is_solid ? ~UINT64_C(0) : 0, 0};
+    if (!s->job.is_solid) {
+        lmb_resolve_rays(&s->rays, c->view, c->target->x0 + tx * LMB_TILE, c->target->y0 + ty * LMB_TILE);
+        if (is_inside && (s->luck >= 0 || (tx + ty) % UNLUCKY_EACH == 0) &&
+            count_bits_64(seen) >= MIN_PAIR_PIXELS) {
+            c->kernels->masked_parts(&parts, &s->job, seen);
+            s->luck = (int16_t)mini(maxi(s->luck + parts.gain, -MAX_LUCK), MAX_LUCK);
+        }
+    }
+    seen &= ~parts.hole;
+    if (seen != 0) {
+        c->kernels->fill_masked(tile, job, &s->job, seen, parts.solid);
+    }
+}
+#endif
+
 /* Fills the triangle's tiles in a range. */
 static void fill_range(const lmb_fill_context *c, const lmb_setup *s, lmb_fill_job *job, masked_surface *surface,
                        const tile_range *range, int part)
@@ -491,6 +552,12 @@ static void fill_range(const lmb_fill_context *c, const lmb_setup *s, lmb_fill_j
         for (int32_t tx = range->x0; tx <= range->x1; ++tx) {
             lmb_fill_tile tile;
             if (set_tile(&tile, job, surface, c, s, tx, ty)) {
+#if LMB_TREES
+                if (surface->batches) {
+                    fill_by_kernels(c, &tile, job, surface, tx, ty);
+                    continue;
+                }
+#endif
                 surface->part = part;
                 fill_tile_masked(c, &tile, job, surface);
             }

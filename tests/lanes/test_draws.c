@@ -14,7 +14,7 @@ enum { ROUNDS = 400, FRAME = 160, TRIANGLES = 107, PIXELS = FRAME * FRAME };
 /* A scene of loose triangles under one view, and a window of the frame. */
 typedef struct draws {
     float positions[9 * TRIANGLES], uvs[6 * TRIANGLES];
-    uint8_t texels[4 * 9 * 9];
+    uint8_t texels[4 * 40 * 40];
     lmb_texture texture;
     uint32_t indices[3 * TRIANGLES];
     lmb_mesh mesh;
@@ -63,6 +63,22 @@ static void make_indices(draws *d, test_rng *r)
     d->mesh.index_format = LMB_INDEX_U32;
 }
 
+/* A mask of up to 40x40 texels, in squares that are opaque in turns: tiles are all hole, all solid, or neither. */
+static void make_squares(draws *d, test_rng *r)
+{
+    const int squares = 1 + (int)(test_random(r) % 8u), width = 4 + (int)(test_random(r) % 37u),
+              height = 4 + (int)(test_random(r) % 37u);
+    for (int i = 0; i < width * height; ++i) {
+        const int is_solid = (i % width / squares ^ i / width / squares) & 1;
+        d->texels[4 * i + 3] = (uint8_t)((is_solid ? 240u : 0u) + test_random(r) % 16u);
+    }
+    for (int i = 0; i < 6 * TRIANGLES; ++i) {
+        d->uvs[i] = test_uniform(r, -0.2f, 1.2f);
+    }
+    d->texture.width = (uint16_t)width;
+    d->texture.height = (uint16_t)height;
+}
+
 /* A mask of up to 9x9 texels. A few coordinates are huge. */
 static void make_mask(draws *d, test_rng *r)
 {
@@ -79,6 +95,9 @@ static void make_mask(draws *d, test_rng *r)
     d->texture.wrap_s = (uint8_t)(test_random(r) % 3u);
     d->texture.wrap_t = (uint8_t)(test_random(r) % 3u);
     d->texture.filter = test_random(r) % 2u ? LMB_NEAREST : LMB_BILINEAR;
+    if (test_random(r) % 2u) {
+        make_squares(d, r);
+    }
     d->mesh.uvs = d->uvs;
     d->scene.textures = &d->texture;
     d->scene.texture_count = 1;
