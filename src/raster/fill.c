@@ -280,7 +280,7 @@ static int enter_tile(lmb_fill_job *job, const lmb_setup *s, int32_t x_24_8, int
 }
 
 /* Depth at a tile's first pixel. */
-static float tile_depth(const lmb_setup *s, int32_t x_24_8, int32_t y_24_8)
+static float masked_tile_depth(const lmb_setup *s, int32_t x_24_8, int32_t y_24_8)
 {
     return (float)(s->d_origin + s->d_x * (x_24_8 * (1.0 / 256.0)) + s->d_y * (y_24_8 * (1.0 / 256.0)));
 }
@@ -406,7 +406,7 @@ static int set_tile(lmb_fill_tile *out, lmb_fill_job *job, masked_surface *surfa
 #if LMB_TREES
     out->id_format = c->is_ahead ? LMB_FORMAT_NONE : out->id_format;
 #endif
-    job->d = tile_depth(s, x_24_8, y_24_8);
+    job->d = masked_tile_depth(s, x_24_8, y_24_8);
     if (LMB_MULTISAMPLE) {
         surface->x = x;
         surface->y = y;
