@@ -67,7 +67,7 @@ static void cross_large(const lmb_setup *s, const large_edges *edges)
     const lmb_fill_job job = any_job();
     fill_triangle t;
     /*@ assert -CHANGE_MAX <= e[0] <= FAR_INSIDE; */
-    fill_set(&t, s->ex, s->ey, &job);
+    fill_set(&t, s->ex, s->ey, &job, FILL_ANY);
     for (int i = 0; i < FILL_ACROSS; ++i) {
         fill_column(&tile, &job, &t, e, job.d, &whole, i);
     }
