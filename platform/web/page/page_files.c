@@ -225,13 +225,13 @@ int place_list_read(place_list *out, const char *path, report *r)
 }
 void place_list_free(place_list *list) { (void)list; }
 int place_list_walk(const place_list *list, const char *out, place_draw *draw, void *user, const lmb_probe_cache *cache,
-                    report *r)
+                    int is_quiet, report *r)
 {
-    return (void)list, (void)out, (void)draw, (void)user, (void)cache, (void)r, 0;
+    return (void)list, (void)out, (void)draw, (void)user, (void)cache, (void)is_quiet, (void)r, 0;
 }
-int place_tell(const place_list *list, int32_t i, const char *name, int is_kept)
+int place_tell(const place_list *list, int32_t i, const char *name, int is_kept, int is_quiet)
 {
-    return (void)list, (void)i, (void)name, is_kept;
+    return (void)list, (void)i, (void)name, (void)is_quiet, is_kept;
 }
 
 int relight_worlds_check(const relight_options *o, report *r)
