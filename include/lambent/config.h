@@ -176,7 +176,8 @@
 #define LMB_MULTISAMPLE LMB_TREES
 #endif
 
-/* 0: this build has no lmb_draw_culled and no bins, and fills 16-bit depth by slower code with the same bytes. */
+/* 0: this build has no lmb_draw_culled and no bins, and fills 16-bit depth and alpha masks by slower code with the same
+ * bytes. */
 #ifndef LMB_CULLING
 #define LMB_CULLING LMB_TREES
 #endif

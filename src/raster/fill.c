@@ -531,7 +531,7 @@ NOINLINE void fill_by_kernels(const lmb_fill_context *c, const lmb_fill_tile *ti
     lmb_masked_parts parts = {0, s->job.is_solid ? ~UINT64_C(0) : 0, 0};
     if (!s->job.is_solid) {
         lmb_resolve_rays(&s->rays, c->view, c->target->x0 + tx * LMB_TILE, c->target->y0 + ty * LMB_TILE);
-        if (is_inside && (s->luck >= 0 || (tx + ty) % UNLUCKY_EACH == 0) &&
+        if (c->kernels->masked_parts != NULL && is_inside && (s->luck >= 0 || (tx + ty) % UNLUCKY_EACH == 0) &&
             count_bits_64(seen) >= MIN_PAIR_PIXELS) {
             c->kernels->masked_parts(&parts, &s->job, seen);
             s->luck = (int16_t)mini(maxi(s->luck + parts.gain, -MAX_LUCK), MAX_LUCK);

@@ -7,7 +7,11 @@
 #define MASKED_KERNEL NULL
 #else
 #define MASKED_SEEN_KERNEL KERNEL(masked_seen)
+#if LMB_CULLING
 #define MASKED_PARTS_KERNEL KERNEL(masked_parts)
+#else
+#define MASKED_PARTS_KERNEL NULL
+#endif
 #define MASKED_KERNEL KERNEL(fill_masked)
 
 /* A value given at the corners. */
@@ -190,6 +194,7 @@ static uint64_t KERNEL(masked_seen)(const lmb_fill_tile *tile, const lmb_fill_jo
 
 /* --- pairs of rows ------------------------------------------------------------------------------------------------ */
 
+#if LMB_CULLING
 /* The texels that a pair of a tile's rows can sample show whether it is all hole or all solid. */
 enum { MASKED_PAIRS = LMB_TILE / 2, MASKED_CORNERS = 4 * MASKED_PAIRS };
 enum { MASKED_ANY, MASKED_HOLE, MASKED_SOLID };
@@ -297,6 +302,7 @@ static void KERNEL(masked_parts)(lmb_masked_parts *out, const lmb_masked_job *j,
         }
     }
 }
+#endif
 
 static void KERNEL(fill_masked)(const lmb_fill_tile *tile, const lmb_fill_job *job, const lmb_masked_job *masked,
                                 uint64_t seen, uint64_t solid)
