@@ -173,7 +173,7 @@ static void test_leaves(traversal *w)
     w->leaves = 0;
 }
 
-/* Asks for the cache lines of a box's triangles. */
+/* Requests the cache lines of a box's triangles. */
 static inline void ask_triangles(const lmb_bvh *bvh, const lmb_boxes *node, int i)
 {
     const uint8_t *from = (const uint8_t *)&bvh->triangle[node->first[i]];

@@ -156,10 +156,11 @@ static uint64_t showing(const lmb_tile *t, uint64_t missed)
 
 /* Runs one pass over all pixels, reading the result of the previous pass. Returns 1 if a pixel became a hit. A pixel of
  * the simple model is corrected only from surfaces, an empty pixel from any neighbour. A pixel that no view shows, away
- * from all surfaces, lies beside the model if a view shows all of it; photos show a part only, and it stays. */
+ * from all surfaces, lies beside the model if a view shows all of it; photos show a part only, and it stays. A hit is a
+ * speck if the simple model covers a pixel beside it; a model that covers one pixel is all of the hit. */
 static int mend_all(mender *m, lmb_relief_found *found, uint64_t inside)
 {
-    const uint64_t hit = found->hit, all = showing(m->tile, found->missed);
+    const uint64_t hit = found->hit, all = showing(m->tile, found->missed), covered = showing(m->tile, 0);
     mend_around a;
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         const uint64_t own = (uint64_t)1 << k, beside = lmb_relief_beside(k) & inside, shown = beside & hit;
@@ -173,7 +174,8 @@ static int mend_all(mender *m, lmb_relief_found *found, uint64_t inside)
             take_surface(m, &a, k);
             found->hit |= own;
             found->missed &= ~own;
-        } else if (m->job->outside && m->tile->id[k] != 0 && hits == 0 && pixels >= 5) {
+        } else if (m->job->outside && m->tile->id[k] != 0 && hits == 0 && pixels >= 5 &&
+                   (!is_hit || (beside & covered) != 0)) {
             found->hit &= ~own;
             found->missed |= own;
         } else if (is_hit && hits > 2 && !has_equals(m, shown, k)) {

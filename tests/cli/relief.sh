@@ -150,6 +150,13 @@ crowd_refused() {
     status 1 relief render --crowd stage/bad.txt $eye -o bad.png
     said "$2"
 }
+# Placements of one pixel stay in the picture: 400 of them, away from each other. They had vanished but for those in the
+# corners of tiles.
+awk 'BEGIN { for (i = 0; i < 400; ++i) print "pit.lmr", 20.3 * (i % 20 - 9.5), 0, 20.3 * (int(i / 20) - 9.5) }' >stage/far.txt
+status 0 relief render --crowd stage/far.txt --size 160x160 --fov 2 --eye 0,13000,0 --target 0,0,0 --up 0,0,1 --samples 1 -o far.ppm
+check "a far crowd stays in the picture" sh -c 'awk "/^pixels of the simple model/ { ok = \$6 + 0 > 150 && \$8 + 0 > 85 } END { exit !ok }" "$1"' sh out.txt
+crowd_refused 'pit.lmr\0x 0 0 0\n' "stage/bad.txt: line 1: a zero byte in a name"
+crowd_refused 'pit.lmr 1e6 0 0 0 1e6\n' "stage/bad.txt: a placement reaches over 1e+06 m away"
 crowd_refused '# none\n' "stage/bad.txt: no placements in it"
 crowd_refused 'pit.lmr 0 0 0\npit.lmr 0 0\n' "stage/bad.txt: line 2: not FILE.lmr X Y Z [TURN [SCALE]]"
 crowd_refused 'pit.lmr 0 0 0 0 1 7\n' "stage/bad.txt: line 1: not FILE.lmr"
@@ -165,8 +172,15 @@ status 2 relief render pit.lmr --crowd stage/one.txt -o bad.png
 said "--crowd names the reliefs to draw: leave pit.lmr out"
 status 1 relief render pit.lmr --photo nowhere -o bad.png
 said "nowhere."
-status 2 relief render pit.lmr --photo nowhere --size 9x9 -o bad.png
-said "--photo sets camera and size"
+for more in "--size 9x9" "--fov 10" "--up 1,0,0" "--near 1"; do
+    # shellcheck disable=SC2086
+    status 2 relief render pit.lmr --photo nowhere $more -o bad.png
+    said "--photo sets camera and size"
+done
+status 2 relief render pit.lmr --photo nowhere --world sky -o bad.png
+said "--photo draws without light"
+status 2 relief render pit.lmr --photo nowhere --background ffffff -o bad.png
+said "--photo has no background"
 status 2 relief render --crowd stage/one.txt --compare pit.obj -o bad.png
 printf 'pit.lmr 0 0 0\n' >stage/self.ppm
 status 2 relief render --crowd stage/self.ppm -o stage/self.ppm

@@ -60,6 +60,8 @@ padding=$(((4 - bytes % 4) % 4))
 cp scene.glb city.glb
 "$lambent" render demo --size 64x32 --world none -o sky.hdr >/dev/null 2>&1
 cp sky.hdr sky_000.hdr
+"$lambent" relief bake scene.glb --size 64 --triangles 300 -o statue.lmr >/dev/null 2>&1
+echo statue.lmr 0 0 0 >list.txt
 cd - >/dev/null || exit 1
 
 # A command ends at two blanks or at the end of the line. Only one of two bakes with default settings runs, because each
@@ -70,7 +72,7 @@ awk '/^<!-- run: / { apart = 1 } /^```/ { inside = !inside; if (!inside) apart =
 check "documents show commands" test "$(grep -c . "$dir/commands.txt")" -gt 15
 while IFS= read -r arguments; do
     case $arguments in
-    *"--frame room"* | *"--frames DIR"* | *"--placements list.txt"* | "-bench hard"*)
+    *"--frame room"* | *"--photo room"* | *"--frames DIR"* | *"--placements list.txt"* | "-bench hard"*)
         skip "lambent$arguments: other checks run it"
         continue
         ;;

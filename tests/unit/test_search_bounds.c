@@ -112,8 +112,8 @@ static void sights_are_bounded(star *s, uint32_t needles, test_rng *r)
     play_space_free(&space);
 }
 
-/* A tile whose budget of sun rays is spent repeats the last answer: of pixels that were asked then their own, of others
- * that of the next asked one, in the order of the tile and around. */
+/* A tile whose budget of sun rays is spent repeats the last answer. A pixel that was asked then gets its own answer. Any
+ * other pixel gets the answer of the next asked one, in the order of the tile and around. */
 static void spent_suns_repeat(void)
 {
     static lmb_bvh bvh;

@@ -43,21 +43,22 @@ world_moment world_series_at(const world_series *s, int32_t k, int32_t every)
     return at;
 }
 
-int world_series_check(const world_series *s, int32_t pictures, int32_t every, int has_one_size, report *r)
+int world_series_check(const world_series *s, int32_t first, int32_t pictures, int32_t every, int has_one_size,
+                       report *r)
 {
-    const world_moment last = world_series_at(s, pictures - 1, every);
-    const int32_t files = last.index + (last.share > 0.0f ? 2 : 1);
-    int32_t first = 0, side = 0;
-    char name[NAME], first_name[NAME];
-    for (int32_t i = 0; i < files; ++i) {
+    const world_moment from = world_series_at(s, first, every), last = world_series_at(s, first + pictures - 1, every);
+    const int32_t past = last.index + (last.share > 0.0f ? 2 : 1);
+    int32_t wanted = 0, side = 0;
+    char name[NAME], one[NAME];
+    for (int32_t i = from.index; i < past; ++i) {
         if (!world_series_name(name, sizeof name, s, i, r) || !world_check(name, &side, r)) {
             return 0;
         }
-        first = i == 0 ? side : first;
-        if (has_one_size && side != first) {
-            return world_series_name(first_name, sizeof first_name, s, 0, r) &&
+        wanted = i == from.index ? side : wanted;
+        if (has_one_size && side != wanted) {
+            return world_series_name(one, sizeof one, s, from.index, r) &&
                    report_fail(r, "%s: faces of %d pixels, and %s has %d; files of one series have one size", name,
-                               (int)side, first_name, (int)first);
+                               (int)side, one, (int)wanted);
         }
     }
     return 1;

@@ -24,10 +24,11 @@ int world_series_name(char *out, size_t size, const world_series *s, int32_t ind
 /* world_series_at: the moment of picture k, with `every` pictures from one file to the next; the last file stays. */
 world_moment world_series_at(const world_series *s, int32_t k, int32_t every);
 
-/* world_series_check: reads each file that `pictures` pictures use, before the first of them is drawn, and protects it
- * from being overwritten. If `has_one_size` is set, all must have faces of one size, as a blend needs. Returns 1, or 0
- * with `r` set. */
-int world_series_check(const world_series *s, int32_t pictures, int32_t every, int has_one_size, report *r);
+/* world_series_check: reads each file that `pictures` pictures from picture `first` on use, before they are drawn, and
+ * protects it from being overwritten. If `has_one_size` is set, all must have faces of one size, as a blend needs.
+ * Returns 1, or 0 with `r` set. */
+int world_series_check(const world_series *s, int32_t first, int32_t pictures, int32_t every, int has_one_size,
+                       report *r);
 
 /* world_series_read: reads the cube of a moment. `own` takes the memory that `out` points into. Returns 1, or 0 with
  * `r` set. */

@@ -31,9 +31,9 @@ int play_world_hash(const play_world *w, render_options *o, report *r)
     return 1;
 }
 
-int play_world_check(const play_world *w, int32_t frames, int32_t every, report *r)
+int play_world_check(const play_world *w, int32_t from, int32_t frames, int32_t every, report *r)
 {
-    return w->series.count == 0 || world_series_check(&w->series, frames, every, 1, r);
+    return w->series.count == 0 || world_series_check(&w->series, from, frames, every, 1, r);
 }
 
 /* Reads a file, unless it is one of the last two. */

@@ -21,9 +21,9 @@ typedef struct play_world {
 int play_world_begin(play_world *out, render_options *inout, report *r);
 int play_world_set(play_world *inout, render_job *j, play_motion *motion, int32_t k, int32_t every, report *r);
 
-/* play_world_check: reads all files up to the last of `frames` frames before the first is drawn, so that a bad one ends
- * the command before it writes. Returns 1, or 0 with `r` set. */
-int play_world_check(const play_world *w, int32_t frames, int32_t every, report *r);
+/* play_world_check: reads all files that `frames` frames from frame `from` on use, so that a bad one ends the command
+ * before it writes. Returns 1, or 0 with `r` set. */
+int play_world_check(const play_world *w, int32_t from, int32_t frames, int32_t every, report *r);
 
 /* play_world_hash: adds all files to the job of a slice. Returns 1, or 0 with `r` set. */
 int play_world_hash(const play_world *w, render_options *inout, report *r);

@@ -221,7 +221,7 @@ static int run(play *p, report *r)
     p->job.o = p->o.render;
     p->job.hides = MODEL_NOTE_MOTION;
     if (!can_write(p, r) || !play_motion_read(&p->motion, &p->o, r) || !render_job_load(&p->job, r) ||
-        !play_world_check(&p->world, p->o.from + p->o.frames, every_of(p), r) || !can_write(p, r) ||
+        !play_world_check(&p->world, p->o.from, p->o.frames, every_of(p), r) || !can_write(p, r) ||
         !play_motion_find(&p->motion, &p->job, r) || !render_job_set(&p->job, r) || !play_motion_make(&p->motion, r) ||
         !play_times_make(&p->times, p->o.frames, r) || !find_exposure(p, r) || !draw_all(p, r) ||
         (p->o.render.slice.count > 0 && !write_slice(p, r))) {

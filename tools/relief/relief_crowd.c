@@ -195,7 +195,7 @@ void crowd_band_free(crowd_band *b)
     memset(b, 0, sizeof *b);
 }
 
-/* Do the surfaces drawn before hide the simple model in a tile, which encloses the complex one? */
+/* Returns 1 if nearer surfaces hide the simple model, which encloses the complex one, in the whole tile. */
 static int is_hidden(const crowd_tile *by, const lmb_tile *t, float scale)
 {
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {

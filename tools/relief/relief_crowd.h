@@ -1,4 +1,5 @@
-/* relief_crowd.h: many placements of reliefs in one picture. Each costs as much as the pixels that it covers. [P11] */
+/* relief_crowd.h: many placements of reliefs in one picture. The time grows with their
+ * pixels and triangles. [P11] */
 #ifndef RELIEF_CROWD_H
 #define RELIEF_CROWD_H
 

@@ -36,6 +36,11 @@ static const lmb_relief *relief_named(relief_crowd *c, const cursor *at, slice n
         report_fail(r, "not enough memory");
         return NULL;
     }
+    if (memchr(name.at, 0, name.size) != NULL) {
+        free(path);
+        text_fail(at, r, "a zero byte in a name");
+        return NULL;
+    }
     const int is_whole = name.size > 0 && name.at[0] == '/';
     const size_t before = is_whole ? 0 : folder;
     memcpy(path, at->path, before);
@@ -138,5 +143,10 @@ int relief_crowd_read(relief_crowd *out, const char *path, report *r)
     const int ok = read_lines(out, &at, slash != NULL ? (size_t)(slash - path) + 1 : 0, r) &&
                    relief_crowd_scene(out, r);
     file_free(&file);
+    const lmb_vec3 low = out->scene.bounds_min, high = out->scene.bounds_max;
+    const float reach = fmaxf(fmaxf(fmaxf(-low.x, -low.y), -low.z), fmaxf(fmaxf(high.x, high.y), high.z));
+    if (ok && !(reach <= (float)FARTHEST)) {
+        return report_fail(r, "%s: a placement reaches over %g m away", path, FARTHEST);
+    }
     return ok;
 }

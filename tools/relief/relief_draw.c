@@ -137,7 +137,7 @@ typedef struct crowd_map {
     lmb_status failed[POOL_MAX];
 } crowd_map;
 
-/* As in a shadow map: of an axis distance z. */
+/* Converts a distance along the axis to a shadow map's depth. */
 static float map_depth(const lmb_view *v, float z)
 {
     const float d =
@@ -226,7 +226,7 @@ static int draw_map(work *w, layer *l, const lmb_scene *bounds, const lmb_scene 
     return status == LMB_OK || report_fail(r, "--light: its map cannot be drawn: %s", lmb_status_name(status));
 }
 
-/* A sun's map of the relief is fitted to the relief: what lies beside it in the map is lit. */
+/* A sun's map is fitted to the relief's bounds. Points beside the map are lit. */
 static int draw_maps(work *w, report *r)
 {
     lmb_scene bounds = w->plain.scene != NULL ? *w->plain.scene : w->simple;

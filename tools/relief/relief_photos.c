@@ -122,6 +122,7 @@ int relief_photo_of(relief_photo *out, const mix_frame *frame, report *r)
 {
     const size_t pixels = (size_t)frame->camera.width * (size_t)frame->camera.height;
     memset(out, 0, sizeof *out);
+    out->has_pose = frame->has_pose != 0;
     if (!set_view(&out->view, frame, r)) {
         return 0;
     }

@@ -10,6 +10,7 @@
 typedef struct relief_photo {
     lmb_view view;
     float *depth, *normal, *colour; /* m along the axis, 0: nothing; towards the camera, unit; linear */
+    int has_pose;                   /* 0: the camera is at 0 */
 } relief_photo;
 
 /* relief_photo_of: converts a photo to the library's camera. x of the pose's world stays, and y and z are negated: a

@@ -7,7 +7,7 @@
 
 /* Zeroed: none. Release it with relief_sky_free. Do not move it. */
 typedef struct relief_sky {
-    world around;        /* the sun in it is a light of yours: sky and stream are without it */
+    world around;        /* take the sun from here; `stream` and `irradiance` do not include it */
     lmb_env irradiance;  /* without occlusion, by normal, W/m2 */
     light_stream stream; /* the same light as lights, for occlusion by other geometry */
     void *memory;

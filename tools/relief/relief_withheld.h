@@ -7,8 +7,8 @@
 
 typedef struct withheld_figures {
     double db;           /* of reflectance, sRGB codes, over pixels that show a surface; 99: equal; -1: none do */
-    double shown, filled; /* shares of the picture: with a surface; of these from the simple model, as no view shows
-                             them */
+    double shown, filled; /* shares of the picture's pixels: with a surface; filled from the simple model because no
+                             view shows them */
 } withheld_figures;
 
 /* withheld_measure: compares a frame with the photo of the same view and size. */

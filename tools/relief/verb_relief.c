@@ -40,8 +40,10 @@ static const option_row rows[] = {
      .help = HELP("made by `lambent relief bake`")},
     {.name = "--crowd", .value = "LIST", .kind = OPTION_TEXT, AT(crowd), .file = OPTION_READS,
      .help = HELP("many reliefs in one picture, in place of FILE.lmr: a list of placements, one per line, each "
-             "FILE.lmr X Y Z [TURN [SCALE]]. TURN is in degrees about +y; names are relative to the list. A placement "
-             "takes as long as the pixels that it covers: bake small ones with --size 64 --triangles 500")},
+             "FILE.lmr X Y Z [TURN [SCALE]]. TURN is in degrees about +y; names are relative to the list and have no "
+             "spaces; # begins a comment. At most 1,000,000 placements of 1,000 files. The time grows with the pixels "
+             "that placements cover and with their triangles: bake small ones with --size 64 --triangles 500. A ground "
+             "and --bounce take time for all triangles")},
     {.kind = OPTION_TITLE, .help = HELP("view")},
     VIEW_OPTION_SIZE(relief_options, view, "px (default 640x480)"),
     VIEW_OPTIONS_CAMERA(relief_options, view, "the camera's position (default: the whole model from slightly above)"),
@@ -59,8 +61,8 @@ static const option_row rows[] = {
     {.name = "--light", .kind = OPTION_LIGHT, AT(light), .counts = offsetof(relief_options, has_light),
      .help = HELP("KIND is spot, point or sun (default: a sun from the upper right)")},
     {.name = "--shadow-map", .value = "N", .kind = OPTION_MULTIPLE_OF_8, AT(shadow_map), .low = 0, .high = LMB_MAX_SIDE,
-     .help = HELP("texels per side of the light's shadow map, at most (default 1024); the relief's map has no more "
-             "than its views or two per pixel show. 0: no shadows")},
+     .help = HELP("texels per side of the light's shadow map, at most (default 1024); the relief's map has at most the "
+             "texels that its views show, and at most two per pixel. 0: no shadows")},
     {.name = "--ambient", .value = "E", .kind = OPTION_NUMBER, AT(ambient), .low = 0, .high = 1e6,
      .help = HELP("irradiance from everywhere, W/m2 (default 0.3, with a --world 0)")},
     {.name = "--world", .value = "FILE|sky|none", .kind = OPTION_TEXT, AT(world),
@@ -119,7 +121,8 @@ static const option_row ask_rows[] = {OPTION_ASK, {.kind = OPTION_END}};
 
 static const option_table both_table = {
     .verb = "relief",
-    .usage = HELP("relief bake MODEL -o OUT.lmr [options]\nrelief render FILE.lmr [--path FILE] -o OUT [options]"),
+    .usage = HELP("relief bake MODEL -o OUT.lmr [options]\nrelief render FILE.lmr [--path FILE] -o OUT [options]\n"
+                  "relief render --crowd LIST [--path FILE] -o OUT [options]"),
     .about = HELP("Draws a complex model as a few triangles that carry its surface, silhouette, depth and shadow, by "
         "views of it: `bake` makes the views and the simple model, `render` draws them. Each has its own --help."),
     .part = {ask_rows},
@@ -136,10 +139,29 @@ static int background_fits(const relief_options *o, report *r)
         return report_fail(r, "--background: only pictures of light have one; use --show full");
     }
     if (o->background.kind == BACKGROUND_TRANSPARENT && format != PICTURE_PNG) {
-        return report_fail(r, "--background transparent: of the formats only PNG has alpha; name a .png");
+        return report_fail(r, "--background transparent: only PNG has alpha; name a .png");
     }
     return o->background.kind != BACKGROUND_COLOUR || !picture_is_linear(format) ||
-           report_fail(r, "--background: colours are a display's; name a .png or a .ppm");
+           report_fail(r, "--background: a colour needs a display format; name a .png or a .ppm");
+}
+
+/* --photo leaves nothing of the camera and the light to choose. */
+static int photo_fits(const relief_options *o, report *r)
+{
+    view_options usual;
+    view_options_init(&usual);
+    const int sees = o->view.has_eye || o->view.has_target || o->view.width > 0 || o->view.near_m > 0.0f ||
+                     o->view.fov_deg != usual.fov_deg || o->view.up.x != usual.up.x || o->view.up.y != usual.up.y ||
+                     o->view.up.z != usual.up.z;
+    if (sees || o->path != NULL || o->compare != NULL) {
+        return report_fail(r, "--photo sets camera and size: leave --eye, --target, --up, --fov, --near, --size, "
+                           "--path and --compare out");
+    }
+    if (o->has_light || has_world(o) || o->bounce || o->samples != 0) {
+        return report_fail(r, "--photo draws without light: leave --light, --world, --bounce and --samples out");
+    }
+    return o->background.kind == BACKGROUND_WORLD ||
+           report_fail(r, "--photo has no background: leave --background out");
 }
 
 static int parse(relief_options *o, int argc, char **argv, report *r)
@@ -161,16 +183,16 @@ static int parse(relief_options *o, int argc, char **argv, report *r)
                            o->file != NULL ? o->file : "--compare");
     }
     if (o->compare != NULL && o->with != NULL) {
-        return report_fail(r, "--compare draws the complex model alone: without --with");
+        return report_fail(r, "--compare draws only the complex model: leave --with out");
     }
     if (o->out == NULL) {
         return report_fail(r, "no output given; add -o FILE.png");
     }
     if (has_world(o) && o->compare != NULL) {
-        return report_fail(r, "--compare is of pictures in the light of one source: leave --world out");
+        return report_fail(r, "--compare needs a single light: leave --world out");
     }
-    if (o->photo != NULL && (o->view.has_eye || o->view.width > 0 || o->path != NULL || o->compare != NULL)) {
-        return report_fail(r, "--photo sets camera and size: leave --eye, --size, --path and --compare out");
+    if (o->photo != NULL && !photo_fits(o, r)) {
+        return OPTIONS_BAD;
     }
     if (o->photo != NULL && o->show == PLANE_FULL) {
         o->show = PLANE_ALBEDO;
@@ -238,6 +260,8 @@ static int choose_view(lmb_view *out, work *w, relief_options *o, report *r)
     lmb_view middle;
     if (o->photo != NULL) {
         const int ok = relief_photo_read(&w->photo, o->photo, r);
+        report_note(!ok || o->view.is_quiet || w->photo.has_pose,
+                    "note: %s: no camera_to_world; its camera is at 0,0,0", o->photo);
         *out = w->photo.view;
         out->near_m *= NEARER;
         return ok;
@@ -319,6 +343,10 @@ static void tell_withheld(const relief_frame *f, const relief_photo *photo, cons
 {
     withheld_figures e;
     withheld_measure(&e, f, photo);
+    if (e.db < 0.0) {
+        report_say("%s: no pixel shows a surface\n", name);
+        return;
+    }
     report_say("%s: %.2f dB over the %.2f %% of the pixels with a surface; %.2f %% filled from the simple model\n",
                name, e.db, 100.0 * e.shown, 100.0 * e.filled);
 }
@@ -371,7 +399,7 @@ static int render(work *w, relief_options *o, report *r)
     shot.threads = pool_threads(o->threads);
     shot.bounce = o->bounce ? BOUNCE_MAP : 0;
     shot.samples = samples_of(o);
-    if (!open_sky(&shot, w, o, r)) {
+    if (!open_sky(&shot, w, o, r) || !options_files(o, &table, r)) { /* photo and world are inputs, too */
         return 0;
     }
     if (o->show == PLANE_DEPTH) {

@@ -436,6 +436,9 @@ static int add_photos(work *w, const options *o, relief_photo *photo, report *r)
         if (!relief_photo_read(&photo[i], o->frame[i], r)) {
             return 0;
         }
+        if (o->frames > 1 && !photo[i].has_pose) {
+            return report_fail(r, "%s: no camera_to_world, which several --frame need", o->frame[i]);
+        }
     }
     const float side = o->block > 0.0f ? o->block : relief_photo_size(photo, o->frames) / 24.0f;
     if (!relief_blocks(&w->simple, photo, o->frames, side, r)) {

@@ -494,7 +494,7 @@ static int check_worlds(const stage *s, report *r)
     }
     const int32_t every = s->o->world_every > 0 ? s->o->world_every : 1;
     if (s->light->series.count > 0 &&
-        !world_series_check(&s->light->series, s->path.count, every, every > 1, r)) {
+        !world_series_check(&s->light->series, 0, s->path.count, every, every > 1, r)) {
         return 0;
     }
 #else

@@ -386,10 +386,10 @@ static int check_together(const render_options *o, report *r)
         return report_fail(r, "--background: only pictures of light have one; use --show full, direct or indirect");
     }
     if (o->background.kind == BACKGROUND_TRANSPARENT && o->out != NULL && picture_format(o->out) != PICTURE_PNG) {
-        return report_fail(r, "--background transparent: of the formats PNG alone has alpha; name a .png");
+        return report_fail(r, "--background transparent: only PNG has alpha; name a .png");
     }
     if (o->background.kind == BACKGROUND_COLOUR && o->out != NULL && picture_is_linear(picture_format(o->out))) {
-        return report_fail(r, "--background: colours are a display's; name a .png or a .ppm");
+        return report_fail(r, "--background: a colour needs a display format; name a .png or a .ppm");
     }
     if (o->bounces > 1 && o->grouping.method != LMB_GROUP_CUT) {
         return report_fail(r, "--bounces above 1 needs --group method=cut");
