@@ -145,9 +145,12 @@ static int background_fits(const relief_options *o, report *r)
            report_fail(r, "--background: a colour needs a display format; name a .png or a .ppm");
 }
 
-/* --photo leaves nothing of the camera and the light to choose. */
+/* --photo leaves nothing of the camera and the light to choose. The web page reads no photos. */
 static int photo_fits(const relief_options *o, report *r)
 {
+#if defined(OPTIONS_WITHOUT_HELP)
+    return (void)o, (void)r, 1;
+#else
     view_options usual;
     view_options_init(&usual);
     const int sees = o->view.has_eye || o->view.has_target || o->view.width > 0 || o->view.near_m > 0.0f ||
@@ -162,6 +165,7 @@ static int photo_fits(const relief_options *o, report *r)
     }
     return o->background.kind == BACKGROUND_WORLD ||
            report_fail(r, "--photo has no background: leave --background out");
+#endif
 }
 
 static int parse(relief_options *o, int argc, char **argv, report *r)
