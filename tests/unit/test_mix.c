@@ -466,6 +466,25 @@ static void set_lamp(mix_job *j, const float p[3], float even, int has_block, co
     }
 }
 
+/* The guessed light of a photo, and the cosine between its direction and that of a light at `p`, from the anchor. */
+typedef struct near_guess {
+    lmb_light sun;
+    float size, softens, cosine, distance;
+} near_guess;
+
+static near_guess guess_near(mix_job *j, const float p[3])
+{
+    report r = {""};
+    near_guess g;
+    g.softens = -1.0f;
+    CHECK_MSG(mix_light(j, &r), "%s", r.text);
+    g.size = mix_guess_sun(&g.sun, &g.softens, j);
+    const lmb_vec3 to = {p[0] - j->anchor.x, p[1] - j->anchor.y, p[2] - j->anchor.z}, way = g.sun.direction;
+    g.distance = sqrtf(to.x * to.x + to.y * to.y + to.z * to.z);
+    g.cosine = -(way.x * to.x + way.y * to.y + way.z * to.z) / g.distance;
+    return g;
+}
+
 /* A lamp outside the picture: floor and wall get darker with the distance from it, and no shadow is in view. The guess
  * was overhead, 30 to 60 degrees off. If only half of the floor is dark, it may be painted so: the guess must be weak and
  * overhead, and the object darkens half as much. */
@@ -476,23 +495,17 @@ static void lamp_is_by_falloff(void)
     for (int i = 0; i < 4; ++i) {
         const float *p = places[i];
         mix_job *j = begin(object, 7);
-        report r = {""};
-        lmb_light sun;
-        float softens = -1.0f;
         set_depth(j, 2.5f, 1);
         set_lamp(j, p, 0.1f, 0, NULL);
         for (int k = 0; k < 3 * PIXELS && i == 3; ++k) {
             j->frame.light.pixels[k] = j->frame.depth[k / 3] < 2.5f && k / 3 % WIDTH < WIDTH / 2 ? 0.12f : 0.24f;
         }
-        CHECK_MSG(place(j) && mix_light(j, &r), "%s", r.text);
-        const float size = mix_guess_sun(&sun, &softens, j);
-        const lmb_vec3 to = {p[0] - j->anchor.x, p[1] - j->anchor.y, p[2] - j->anchor.z};
-        const float cosine = -(sun.direction.x * to.x + sun.direction.y * to.y + sun.direction.z * to.z) /
-                             sqrtf(to.x * to.x + to.y * to.y + to.z * to.z);
-        CHECK_MSG(i == 3 || (cosine > 0.97f && size < 20.0f && softens == 0.0f), "%d: cosine %g, %g wide, %g", i,
-                  (double)cosine, (double)size, (double)softens);
-        CHECK_MSG(i != 3 || (sun.direction.y < -0.99f && size > 40.0f && softens == 0.5f && j->softens == 0.5f),
-                  "from %g, %g wide, %g", (double)-sun.direction.y, (double)size, (double)softens);
+        CHECK(place(j));
+        const near_guess g = guess_near(j, p);
+        CHECK_MSG(i == 3 || (g.cosine > 0.97f && g.size < 20.0f && g.softens == 0.0f), "%d: cosine %g, %g wide, %g", i,
+                  (double)g.cosine, (double)g.size, (double)g.softens);
+        CHECK_MSG(i != 3 || (g.sun.direction.y < -0.99f && g.size > 40.0f && g.softens == 0.5f && j->softens == 0.5f),
+                  "from %g, %g wide, %g", (double)-g.sun.direction.y, (double)g.size, (double)g.softens);
         mix_job_free(j);
     }
 }
@@ -506,17 +519,12 @@ static void near_light_is_by_both(void)
     for (int i = 0; i < 4; ++i) {
         const float *p = places[i];
         mix_job *j = begin(object, 7);
-        report r = {""};
-        lmb_light sun;
-        float softens = -1.0f;
         set_block(j, (lmb_vec3){0, 1, 0}, 1.0f);
         CHECK(place(j));
         set_lamp(j, p, 0.15f, 1, i % 2 != 0 ? &j->anchor : NULL);
-        CHECK_MSG(mix_light(j, &r), "%s", r.text);
-        const float size = mix_guess_sun(&sun, &softens, j), x = p[0] - j->anchor.x, y = p[1] - j->anchor.y, z = p[2] - j->anchor.z;
-        const float cosine = -(sun.direction.x * x + sun.direction.y * y + sun.direction.z * z) / sqrtf(x * x + y * y + z * z);
-        CHECK_MSG(cosine > 0.985f && size < 30.0f && softens < 0.1f, "%d: cosine %g, %g wide, %g", i, (double)cosine,
-                  (double)size, (double)softens);
+        const near_guess g = guess_near(j, p);
+        CHECK_MSG(g.cosine > 0.985f && g.size < 30.0f && g.softens < 0.1f, "%d: cosine %g, %g wide, %g", i, (double)g.cosine,
+                  (double)g.size, (double)g.softens);
         mix_job_free(j);
     }
 }
@@ -531,9 +539,6 @@ static void near_light_has_size(void)
     for (int i = 0; i < 2; ++i) {
         const float *p = balls[i], radius = p[3];
         mix_job *j = begin(object, 7);
-        report r = {""};
-        lmb_light sun;
-        float softens = -1.0f;
         float *sum = calloc(3 * PIXELS, sizeof *sum);
         set_block(j, (lmb_vec3){0, 1, 0}, 1.0f);
         CHECK(sum != NULL && place(j));
@@ -547,10 +552,9 @@ static void near_light_has_size(void)
         }
         memcpy(j->frame.light.pixels, sum, 3 * PIXELS * sizeof *sum);
         free(sum);
-        CHECK_MSG(mix_light(j, &r), "%s", r.text);
-        const float size = mix_guess_sun(&sun, &softens, j), x = p[0] - j->anchor.x, y = p[1] - j->anchor.y, z = p[2] - j->anchor.z;
-        const float wide = 114.6f * asinf(radius / sqrtf(x * x + y * y + z * z));
-        CHECK_MSG(fabsf(size - wide) < 0.34f * wide, "%d: %g wide, right is %g", i, (double)size, (double)wide);
+        const near_guess g = guess_near(j, p);
+        const float wide = 114.6f * asinf(radius / g.distance);
+        CHECK_MSG(fabsf(g.size - wide) < 0.34f * wide, "%d: %g wide, right is %g", i, (double)g.size, (double)wide);
         mix_job_free(j);
     }
 }
