@@ -29,6 +29,22 @@ try {
     check('and the error says so', [+e.message.includes('no probes')], [1]);
 }
 
+// Two probes with distances: surfaces are 1 m around the first and far from the second, in all directions. A place 1.5 m
+// from the first cannot see it. If a probe lies in a solid, the other one lights the place.
+const far = new DataView(new ArrayBuffer(2 * 220 * 4)), put = (probe, i, v) => far.setFloat32(4 * (220 * probe + i), v, true);
+for (let probe = 0; probe < 2; ++probe) {
+    put(probe, 3 * 0 + probe, 1 / 0.282095); // the first is red, the second green
+    put(probe, 27, 1);
+    for (let t = 0; t < 96; ++t) { put(probe, 28 + 2 * t, probe ? 0.1 : 1); put(probe, 29 + 2 * t, probe ? 0.01 : 1); }
+}
+const walled = openProbes({ ...header, floats: 220 }, far.buffer);
+const redShare = (at, normal) => { const [r, g] = walled.irradiance(at, normal); return r / (r + g); };
+check('light is no more for two probes', [redShare([1.2, 0, 0], [0, 1, 0]) > 0.5, Math.abs(walled.irradiance([1.2, 0, 0], [0, 1, 0]).reduce((a, b) => a + b) - Math.PI) < 1e-3].map(Number), [1, 1]);
+check('a probe behind a wall does not count', [+(redShare([2.5, 0, 0], [0, 1, 0]) < 1e-3)], [1]);
+check('a probe behind the surface counts less', [+(redShare([1.5, 0, 0], [1, 0, 0]) < redShare([1.5, 0, 0], [-1, 0, 0]) / 1.5)], [1]);
+put(0, 27, 0);
+check('a probe in a solid does not count', [+(redShare([1.2, 0, 0], [0, 1, 0]) < 1e-2)], [1]);
+
 const file = process.argv[2], air = JSON.parse(fs.readFileSync(file)), all = fs.readFileSync(file.replace(/\.json$/, '.bin'));
 const probes = openProbes(air, all.buffer.slice(all.byteOffset, all.byteOffset + all.length));
 const middle = air.first.map((v, k) => v + air.step[k] * (air.count[k] - 1) / 2);

@@ -10,14 +10,17 @@
 #include "../common/fvec.h"
 #include "../common/io_json.h"
 #include "../common/text_buffer.h"
+#include "light_distances.h"
 
-enum { TERMS = 9, FLOATS = 3 * TERMS + 1, NORMALS = LIGHT_PROBE_NORMALS, TOGETHER = 4, ACROSS = 12, MOST = 1 << 16,
-       PATH = 4096 };
+enum { TERMS = 9, FLOATS = 3 * TERMS + 1, ALL_FLOATS = FLOATS + LIGHT_DISTANCES, NORMALS = LIGHT_PROBE_NORMALS,
+       TOGETHER = 4, ACROSS = 12, MOST = 1 << 16, PATH = 4096 };
+#define NEAREST 0.05f /* of a cell's diagonal: closer surfaces count as so far */
+#define SOLID 1e-4f /* weight of a probe in a solid, which counts if all are */
 #define OPEN 0.25f /* of all directions: a point that sees less of lit surfaces counts as inside or behind a solid */
 
-/* Harmonics of the radiance of R, G and B, W/(sr m2); then the share of directions that see a lit surface. */
+/* Harmonics of the radiance of R, G and B, W/(sr m2); the share of directions that see a lit surface; distances. */
 typedef struct probe {
-    float v[FLOATS];
+    float v[ALL_FLOATS];
 } probe;
 
 typedef struct lattice {
@@ -172,6 +175,21 @@ static int fill(lattice *l, const light_solve *s, const bake *b, report *r)
     return ok;
 }
 
+static int measure_distances(lattice *l, const lmb_scene *scene, report *r)
+{
+    ray_space space;
+    const size_t all = count_of(l);
+    if (!ray_space_make(&space, scene, r)) {
+        return 0;
+    }
+    for (size_t i = 0; i < all; ++i) {
+        progress_tell("distances", (double)i / (double)all);
+        light_distances(l->probe[i].v + FLOATS, &space, place_of(l, i), NEAREST * length3(l->step));
+    }
+    ray_space_free(&space);
+    return 1;
+}
+
 /* Points in solids take the mean of their neighbours, step by step, so that their darkness does not show outside. */
 static int mend_once(lattice *l, uint8_t *open)
 {
@@ -230,10 +248,10 @@ static int write_both(const char *path, const lattice *l, report *r)
     text_buffer t;
     memset(&t, 0, sizeof t);
     for (size_t i = 0; i < count_of(l); ++i) {
-        byte_put_floats(&b, l->probe[i].v, FLOATS);
+        byte_put_floats(&b, l->probe[i].v, ALL_FLOATS);
     }
     name_numbers(name, path, 1);
-    text_buffer_add(&t, "{\n  \"lambent\": \"probes\", \"version\": 1, \"numbers\": ");
+    text_buffer_add(&t, "{\n  \"lambent\": \"probes\", \"version\": 2, \"numbers\": ");
     text_buffer_json(&t, name);
     text_buffer_add(
         &t,
@@ -241,11 +259,13 @@ static int write_both(const char *path, const lattice *l, report *r)
         "  \"order\": \"x fastest, then y, then z\", \"floats\": %d,\n"
         "  \"layout\": \"little-endian binary32: 9 harmonics l l + l + m of radiance, R G B each, W/(sr m2); "
         "then the share of directions that show a lit surface, 0 .. 1: under %g the place lies in a solid and "
-        "has its neighbours' harmonics\",\n"
+        "has its neighbours' harmonics; then a cube map of six faces of %d x %d texels: mean of 1 / distance to "
+        "surfaces along the face's axis, and mean of its square, 1/m, 1/m2\",\n"
         "  \"irradiance\": \"sum of harmonic x Y(normal) x 3.141593 for l = 0, 2.094395 for l = 1, 0.785398 for "
         "l = 2, at least 0; W/m2\"\n}\n",
         (double)l->first.x, (double)l->first.y, (double)l->first.z, (double)l->step.x, (double)l->step.y,
-        (double)l->step.z, (int)l->count[0], (int)l->count[1], (int)l->count[2], FLOATS, (double)OPEN);
+        (double)l->step.z, (int)l->count[0], (int)l->count[1], (int)l->count[2], ALL_FLOATS, (double)OPEN,
+        LIGHT_DISTANCES_SIDE, LIGHT_DISTANCES_SIDE);
     name_numbers(name, path, 0);
     const int ok = (!b.is_short || report_fail(r, "%s: not enough memory", path)) &&
                    file_write(name, b.data, b.size, r) && text_buffer_write(&t, path, r);
@@ -280,11 +300,12 @@ static int read_both(lattice *l, const char *path, report *r)
     memset(l, 0, sizeof *l);
     name_numbers(name, path, 0);
     int ok = file_read(&head, path, r) && read_header(l, path, &head, r) && file_read(&numbers, name, r);
-    ok = ok && (numbers.size == 4 * FLOATS * count_of(l) || report_fail(r, "%s: not as long as %s says", name, path));
+    ok = ok && (numbers.size == 4 * ALL_FLOATS * count_of(l) ||
+                report_fail(r, "%s: not as long as %s says", name, path));
     l->probe = ok ? malloc(count_of(l) * sizeof *l->probe) : NULL;
     byte_reader from = {numbers.data, numbers.data + numbers.size, 0};
     for (size_t i = 0; l->probe != NULL && i < count_of(l); ++i) {
-        byte_get_floats(l->probe[i].v, &from, FLOATS);
+        byte_get_floats(l->probe[i].v, &from, ALL_FLOATS);
     }
     file_free(&head);
     file_free(&numbers);
@@ -309,23 +330,28 @@ static void light_in(float out[3], const void *user, uint32_t id, lmb_vec3 at, l
     const int32_t x = before(&part[0], at.x, l->first.x, l->step.x, l->count[0]),
                   v = before(&part[1], at.y, l->first.y, l->step.y, l->count[1]),
                   z = before(&part[2], at.z, l->first.z, l->step.z, l->count[2]);
+    const float shortest = minf(l->step.x, minf(l->step.y, l->step.z));
+    float sum = 0.0f;
     (void)id;
     harmonics(y, normal);
     memset(out, 0, 3 * sizeof *out);
     for (int k = 0; k < 8; ++k) {
-        const float w = (k & 1 ? part[0] : 1.0f - part[0]) * (k & 2 ? part[1] : 1.0f - part[1]) *
+        float w = (k & 1 ? part[0] : 1.0f - part[0]) * (k & 2 ? part[1] : 1.0f - part[1]) *
                         (k & 4 ? part[2] : 1.0f - part[2]);
         if (!(w > 0.0f)) {
             continue;
         }
         const size_t i = (size_t)(x + (k & 1)) + (size_t)l->count[0] * ((size_t)(v + (k >> 1 & 1)) +
                                                                         (size_t)l->count[1] * (size_t)(z + (k >> 2)));
+        w *= light_distances_weight(l->probe[i].v + FLOATS, place_of(l, i), shortest, at, normal);
+        w *= l->probe[i].v[FLOATS - 1] < OPEN ? SOLID : 1.0f;
+        sum += w;
         for (int t = 0; t < 3 * TERMS; ++t) {
             out[t % 3] += w * l->probe[i].v[t] * y[t / 3] * cosine_of(t / 3);
         }
     }
     for (int c = 0; c < 3; ++c) {
-        out[c] = maxf(out[c], 0.0f);
+        out[c] = maxf(out[c] / sum, 0.0f);
     }
 }
 
@@ -336,7 +362,8 @@ int light_probes(const char *path, light_solve *s, bake *b, float step_m, int is
     memset(&back, 0, sizeof back);
     const light_source of = {&s->job.scene, light_in, &back};
     const int ok = light_probes_fit(&s->job.scene, step_m, r) && lay_out(&l, &s->job.scene, step_m, r) &&
-                   fill(&l, s, b, r) && mend(&l, r) && write_both(path, &l, r) && read_both(&back, path, r) &&
+                   fill(&l, s, b, r) && mend(&l, r) && measure_distances(&l, &s->job.scene, r) &&
+                   write_both(path, &l, r) && read_both(&back, path, r) &&
                    light_compare(path, s, &of, "probes", is_quiet, r);
     free(l.probe);
     free(back.probe);

@@ -4,6 +4,7 @@
 #define EXPLAIN_H
 
 #include "../common/report.h"
+#include "../render/ray_space.h"
 #include "../render/render_job.h"
 
 enum {
@@ -14,17 +15,14 @@ enum {
     EXPLAIN_SKY = 256      /* pieces of the sky that light the hit of a ray */
 };
 
-/* The scene with a BVH. explain_space_free releases it. */
+/* A scene to trace. explain_space_free releases it. */
 typedef struct explain_space {
-    const lmb_scene *scene;
+    ray_space rays;
     const lmb_light *sky; /* pieces of a sky, all directional; not among the scene's lights */
     uint32_t sky_count;
     const lmb_kernels *kernels;
-    lmb_bvh bvh;
     lmb_traversal traversal;
     lmb_tile *tile; /* points whose lights are tested together */
-    void *memory;
-    uint32_t *stack; /* nodes: each is on it at most once */
 } explain_space;
 
 /* A point on a surface. */
@@ -65,10 +63,6 @@ typedef struct explain_bounce {
 /* explain_space_make: 1, or 0 with `r` set. */
 int explain_space_make(explain_space *out, const lmb_scene *scene, const lmb_kernels *kernels, report *r);
 void explain_space_free(explain_space *s);
-
-/* explain_nearest: the nearest triangle on a ray, farther than `noise` from its plane: its place in bvh.triangle + 1,
- * and the distance, m; 0: none within `reach_m`. Rays pass through the holes of masked triangles. */
-uint32_t explain_nearest(float *far_m, explain_space *s, lmb_vec3 from, lmb_vec3 along, float noise, float reach_m);
 
 /* explain_light_at: a light's irradiance at a place as if nothing blocked it, W/m2, for a surface with this normal.
  * Returns the direction to the light; *far_m: its distance, 0 for a directional light. */

@@ -11,6 +11,21 @@
 
 static const float FAR_M = 3.0e38f;
 
+int explain_space_make(explain_space *s, const lmb_scene *scene, const lmb_kernels *kernels, report *r)
+{
+    memset(s, 0, sizeof *s);
+    s->kernels = kernels;
+    s->tile = calloc(1, sizeof *s->tile);
+    return s->tile != NULL ? ray_space_make(&s->rays, scene, r)
+                           : report_fail(r, "not enough memory to trace the scene");
+}
+
+void explain_space_free(explain_space *s)
+{
+    free(s->tile);
+    ray_space_free(&s->rays);
+}
+
 lmb_vec3 explain_light_at(float out[3], float *far_m, const lmb_light *l, lmb_vec3 at, lmb_vec3 normal)
 {
     const int is_far = l->kind == LMB_LIGHT_DIRECTIONAL;
@@ -42,9 +57,9 @@ lmb_vec3 explain_light_at(float out[3], float *far_m, const lmb_light *l, lmb_ve
 static uint64_t blocked_by(explain_space *s, const lmb_light *l, uint64_t points, float noise)
 {
     if (l->kind == LMB_LIGHT_DIRECTIONAL) {
-        return lmb_occluded_sun(s->kernels, &s->traversal, &s->bvh, s->tile, points, mul3(l->direction, -1.0f));
+        return lmb_occluded_sun(s->kernels, &s->traversal, &s->rays.bvh, s->tile, points, mul3(l->direction, -1.0f));
     }
-    return lmb_occluded_tile(s->kernels, &s->traversal, &s->bvh, s->tile, points, l->position,
+    return lmb_occluded_tile(s->kernels, &s->traversal, &s->rays.bvh, s->tile, points, l->position,
                              noise + lmb_place_noise(l->position, 0.0f));
 }
 
@@ -90,8 +105,8 @@ void explain_lights(explain_light *out, explain_space *s, const explain_place *p
 {
     memset(s->tile, 0, sizeof *s->tile);
     put_place(s->tile, 0, p);
-    for (uint32_t i = 0; i < s->scene->light_count; ++i) {
-        const lmb_light *l = &s->scene->lights[i];
+    for (uint32_t i = 0; i < s->rays.scene->light_count; ++i) {
+        const lmb_light *l = &s->rays.scene->lights[i];
         explain_light *e = &out[i];
         memset(e, 0, sizeof *e);
         e->number = i;
@@ -104,8 +119,8 @@ void explain_lights(explain_light *out, explain_space *s, const explain_place *p
         }
         e->is_blocked = blocked_by(s, l, 1, p->noise) != 0;
         if (e->is_blocked) {
-            const uint32_t found = explain_nearest(&e->blocker_m, s, p->at, to, p->noise, reach);
-            e->blocker = found > 0 ? s->bvh.triangle[found - 1].id & ~LMB_BVH_MASKED : 0;
+            const uint32_t found = ray_nearest(&e->blocker_m, &s->rays, p->at, to, p->noise, reach);
+            e->blocker = found > 0 ? s->rays.bvh.triangle[found - 1].id & ~LMB_BVH_MASKED : 0;
         }
     }
 }
@@ -229,15 +244,15 @@ static void add_hits(explain_bounce *out, explain_space *s, const hits *h)
         noise = fmaxf(noise, h->place[k].noise);
     }
     if (h->count > 0) {
-        add_lights(direct, s, h, s->scene->lights, s->scene->light_count, EXPLAIN_TREE, noise);
+        add_lights(direct, s, h, s->rays.scene->lights, s->rays.scene->light_count, EXPLAIN_TREE, noise);
         add_lights(direct, s, h, s->sky, s->sky_count, EXPLAIN_SKY, noise);
     }
     for (int k = 0; k < h->count; ++k) {
         lmb_triangle t;
-        lmb_triangle_fetch(&t, s->scene, h->place[k].id);
-        explain_sender *e = &out->sender[t.instance - s->scene->instances];
+        lmb_triangle_fetch(&t, s->rays.scene, h->place[k].id);
+        explain_sender *e = &out->sender[t.instance - s->rays.scene->instances];
         double albedo[3], emission[3], sum = 0.0;
-        material_at(albedo, emission, s->scene, &t, h->part[k]);
+        material_at(albedo, emission, s->rays.scene, &t, h->part[k]);
         for (int c = 0; c < 3; ++c) {
             const double emitted = PI * emission[c] / EXPLAIN_RAYS;
             const double sent = albedo[c] * direct[k][c] / EXPLAIN_RAYS + emitted;
@@ -266,7 +281,7 @@ static int by_power(const void *a, const void *b)
 void explain_gather(explain_bounce *out, explain_space *s, const explain_place *p)
 {
     hits h;
-    const uint32_t instances = s->scene->instance_count;
+    const uint32_t instances = s->rays.scene->instance_count;
     h.count = 0;
     for (uint32_t i = 0; i < instances; ++i) {
         memset(&out->sender[i], 0, sizeof out->sender[i]);
@@ -276,16 +291,16 @@ void explain_gather(explain_bounce *out, explain_space *s, const explain_place *
         const lmb_vec3 along = ray_of(i, p->normal);
         float far_m;
         const int is_above = dot3(along, p->face) > 0.0f;
-        const uint32_t found = is_above ? explain_nearest(&far_m, s, p->at, along, p->noise, FAR_M) : 0;
+        const uint32_t found = is_above ? ray_nearest(&far_m, &s->rays, p->at, along, p->noise, FAR_M) : 0;
         if (found == 0) {
             ++out->missed;
             continue;
         }
-        const lmb_bvh_triangle *t = &s->bvh.triangle[found - 1];
+        const lmb_bvh_triangle *t = &s->rays.bvh.triangle[found - 1];
         const uint32_t id = t->id & ~LMB_BVH_MASKED;
         const int is_back = dot3(t->normal, along) > 0.0f;
         lmb_triangle own;
-        lmb_triangle_fetch(&own, s->scene, id);
+        lmb_triangle_fetch(&own, s->rays.scene, id);
         if (is_back && (own.material->flags & LMB_DOUBLE_SIDED) == 0) {
             ++out->dark;
             continue;

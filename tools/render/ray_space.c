@@ -1,33 +1,30 @@
-/* explain_space.c: the nearest triangle on a ray, by the library's BVH. */
-#include "explain.h"
+/* ray_space.c: the nearest triangle on a ray, by the library's BVH. */
+#include "ray_space.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-int explain_space_make(explain_space *s, const lmb_scene *scene, const lmb_kernels *kernels, report *r)
+int ray_space_make(ray_space *s, const lmb_scene *scene, report *r)
 {
     const uint32_t triangles = lmb_scene_triangles(scene);
     const size_t bytes = lmb_bvh_bytes(triangles > 0 ? triangles : 1);
     memset(s, 0, sizeof *s);
     s->scene = scene;
-    s->kernels = kernels;
-    s->tile = calloc(1, sizeof *s->tile);
     s->memory = malloc(bytes > 0 ? bytes : 1);
-    const int fits = s->tile != NULL && s->memory != NULL && bytes > 0 &&
+    const int fits = s->memory != NULL && bytes > 0 &&
                      lmb_bvh_init(&s->bvh, triangles > 0 ? triangles : 1, s->memory, bytes) == LMB_OK &&
                      lmb_bvh_build(&s->bvh, scene) == LMB_OK;
     s->stack = fits ? malloc((s->bvh.node_count + 1) * sizeof *s->stack) : NULL;
     if (s->stack == NULL) {
-        explain_space_free(s);
+        ray_space_free(s);
         return report_fail(r, "not enough memory to trace the scene");
     }
     return 1;
 }
 
-void explain_space_free(explain_space *s)
+void ray_space_free(ray_space *s)
 {
-    free(s->tile);
     free(s->memory);
     free(s->stack);
     memset(s, 0, sizeof *s);
@@ -122,7 +119,7 @@ static int meets_box(const lmb_boxes *b, int k, const double from[3], const doub
     return low <= high;
 }
 
-uint32_t explain_nearest(float *far_m, explain_space *s, lmb_vec3 origin, lmb_vec3 way, float noise, float reach_m)
+uint32_t ray_nearest(float *far_m, ray_space *s, lmb_vec3 origin, lmb_vec3 way, float noise, float reach_m)
 {
     const double from[3] = {(double)origin.x, (double)origin.y, (double)origin.z};
     const double along[3] = {(double)way.x, (double)way.y, (double)way.z};
