@@ -39,7 +39,8 @@ passed() { [ $((($(date +%s%N) - begun) / 100000000)) -ge "$1" ]; }
 
 # watched WANTED SIGNAL ARGUMENT...: runs the tool on a terminal until WANTED is on the screen, at most a minute, then
 # sends the signal. If WANTED is `nothing`, waits 2 s. The screen is in screen.txt, and the status is that of the tool.
-# The tool runs in the foreground, because background jobs of a shell ignore Ctrl-C.
+# A tool that is still running 30 s later is killed. The tool runs in the foreground, because background jobs of a shell
+# ignore Ctrl-C.
 watched() {
     wanted=$1 sent=$2
     shift 2
@@ -54,6 +55,10 @@ watched() {
             esac
         done
         kill -s "$sent" "$(cat pid)"
+        for tenth in $(seq 300); do
+            kill -s 0 "$(cat pid)" 2>/dev/null && sleep 0.1 || break
+        done
+        kill -s KILL "$(cat pid)" 2>/dev/null
     } &
     killer=$!
     script -qefc "echo \$\$ >pid; exec \"\$TOOL\" $*" screen.txt >/dev/null 2>&1 </dev/null
@@ -69,8 +74,11 @@ if command -v script >/dev/null && script -qec true /dev/null >/dev/null 2>&1; t
     watched "bake: [a-z ]* [0-9]+ %" TERM bake demo --threads 1 -o long.lmt
     check "TERM is exit status 143" test $? -eq 143
     check "bake tells percent" grep -aqE 'lambent bake: [a-z ]* [0-9]+ %' screen.txt
-    watched "frames [0-9]+ %" HUP play demo --size 16x16 --quality draft --frames 100000
-    check "HUP is exit status 129" test $? -eq 129
+    hang_up=HUP wanted_status=129
+    # Below nohup, programs ignore it.
+    [ -z "$(sh -c 'kill -s HUP $$; echo ignored')" ] || hang_up=TERM wanted_status=143
+    watched "frames [0-9]+ %" $hang_up play demo --size 16x16 --quality draft --frames 100000
+    check "$hang_up is exit status $wanted_status" test $? -eq $wanted_status
     check "play tells percent and seconds" grep -aqE 'lambent play: frames [0-9]+ %' screen.txt
     watched nothing INT render demo --size 2048x2048 --quality best --threads 1 -q -o long.png
     check "no progress with -q" sh -c '! grep -aq "%" "$1"' sh screen.txt
