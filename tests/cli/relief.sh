@@ -177,8 +177,10 @@ for more in "--size 9x9" "--fov 10" "--up 1,0,0" "--near 1"; do
     status 2 relief render pit.lmr --photo nowhere $more -o bad.png
     said "--photo sets camera and size"
 done
-status 2 relief render pit.lmr --photo nowhere --world sky -o bad.png
-said "--photo draws without light"
+for more in "--world sky" "--show full" "--show lit"; do
+    status 2 relief render pit.lmr --photo nowhere $more -o bad.png
+    said "--photo draws without light"
+done
 status 2 relief render pit.lmr --photo nowhere --background ffffff -o bad.png
 said "--photo has no background"
 status 2 relief render --crowd stage/one.txt --compare pit.obj -o bad.png

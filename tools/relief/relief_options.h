@@ -31,6 +31,15 @@
     {.name = "--keep", .value = "N", .kind = OPTION_INT, .at = offsetof(type, how.keep), .low = 1, .high = 3, \
      .help = HELP("number of the best of these that are blended (default 3)")}
 
+/* The picture of --show, in the order of its words. */
+enum { PLANE_FULL, PLANE_DEPTH, PLANE_NORMAL, PLANE_ALBEDO, PLANE_LIT };
+
+/* The example of the help: makes tent.lmr. */
+#define RELIEF_TENT \
+    "    printf 'v %s\\n' '-1 0 -1' '1 0 -1' '0 0 1' '0 1 0' >tent.obj\n" \
+    "    printf 'f %s\\n' '1 2 3' '1 4 2' '2 4 3' '3 4 1' >>tent.obj\n" \
+    "    lambent relief bake tent.obj --size 64 --triangles 8 -o tent.lmr\n"
+
 /* The command line of `lambent relief render`. */
 typedef struct relief_options {
     const char *file, *out, *compare, *with, *path, *crowd, *photo;
@@ -49,6 +58,14 @@ typedef struct relief_options {
     const lmb_kernels *kernels;
     int32_t threads;
 } relief_options;
+
+extern const option_table relief_table; /* of `relief render` */
+
+/* 1 if --world names a sky or a file. */
+int relief_has_world(const relief_options *o);
+
+/* Sets defaults, parses argv and refuses options that exclude each other. Returns as options_parse does. */
+int relief_options_parse(relief_options *o, int argc, char **argv, report *r);
 
 /* Parses `N` or `greedy:N`. Returns 1, or 0 if the text is neither. */
 int relief_option_views(const char *text, int32_t *views, int32_t *is_greedy);

@@ -8,4 +8,7 @@ int verb_relief(int argc, char **argv);
 /* The same; argv[0] is "bake". */
 int verb_relief_bake(int argc, char **argv);
 
+/* The same; argv[0] is "render". */
+int verb_relief_render(int argc, char **argv);
+
 #endif
