@@ -205,6 +205,10 @@ done
 status 0 relief render box.lmr --world sky --with floor.obj $eye --samples 1 -o in.pfm
 status 0 relief render box.lmr --world none --with floor.obj $eye --samples 1 -o out.pfm
 check "a sky lights other geometry" differ in.pfm out.pfm
+status 0 relief render box.lmr --world dusk.pfm --bounce $eye -o dim.ppm
+said "--bounce reflects only a sun or lamp"
+status 0 relief render box.lmr --world sky --bounce $eye -o dim.ppm
+check "a sky's sun is reflected" lacks "--bounce reflects" err.txt
 status 0 relief render box.lmr --world dusk.pfm --path looks.txt --frames 1 --samples 1 --size 80x60 -o tour.pfm
 status 0 relief render box.lmr --world dusk.pfm --eye 1,2,5 --target 0,0,0 --samples 1 --size 80x60 -o single.pfm
 check "a path has the world" cmp -s tour-0000.pfm single.pfm
