@@ -23,6 +23,24 @@ for i in 0 1 2 3 4; do
     check "four slices are one sequence: frame $i" cmp "whole-f0$i.ppm" "f0$i.ppm"
 done
 
+# A world of six faces is an input, and so is each of them.
+mkdir -p six
+for face in px nx py ny pz nz; do
+    { printf 'PF\n1 1\n-1.0\n'; printf '\000\000\000\077\000\000\000\077\000\000\000\077'; } >six/$face.pfm
+done
+slices sixfold.png render demo $tiny --world six/
+check "slices in a world of six faces are one picture" cmp whole-sixfold.png sixfold.png
+printf 'PF\n1 1\n-1.0\n\000\000\000\076\000\000\000\077\000\000\000\077' >six/nz.pfm
+status 0 render demo $tiny --world six/ --slice 1/4 -o sixfold.png
+status 1 merge sixfold.png.*of4 -o other.png
+said "of another job"
+rm six/nz.pfm
+status 0 render demo $tiny --world six/ --slice 2/4 -o sixfold.png
+status 1 merge sixfold.png.1of4 sixfold.png.2of4 -o other.png
+said "of another job"
+status 1 render demo $tiny --world nowhere --slice 1/4 -o other.png
+said "no such file"
+
 # Slices that are truncated, damaged, missing, duplicated, or from another job.
 one=joined.pfm
 head -c 3000 "$one.2of4" >cut

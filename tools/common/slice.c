@@ -92,7 +92,7 @@ int slice_hash_file(uint64_t *hash, const char *path, report *r)
 {
     file_bytes file = {NULL, 0};
     if (strcmp(path, "-") == 0) {
-        return report_fail(r, "--slice: standard input is on one machine alone; give a file");
+        return report_fail(r, "--slice: only one machine has standard input; give a file");
     }
     if (!file_read(&file, path, r)) {
         return 0;

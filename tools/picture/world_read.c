@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../common/slice.h"
 #include "picture_read.h"
 
 enum { MAX_SIDE = 4096 };
@@ -251,6 +252,17 @@ static int read_face(lmb_world_pictures *out, world_pictures *own, int i, const 
     return ok;
 }
 
+/* Always 0. */
+static int no_world(const char *prefix, report *r)
+{
+    if (file_is_folder(prefix)) {
+        const char *slash = prefix[strlen(prefix) - 1] == '/' ? "" : "/";
+        return report_fail(r, "%s: a folder; give a picture, or %s%s if six faces are in it: px.png (.pfm .hdr .jpg), "
+                           "nx py ny pz nz", prefix, prefix, slash);
+    }
+    return report_fail(r, "%s: no such file, and no face %spx.png (.pfm .hdr .jpg; px nx py ny pz nz)", prefix, prefix);
+}
+
 static int read_six(lmb_world_pictures *out, world_pictures *own, const char *prefix, report *r)
 {
     char path[4096];
@@ -259,13 +271,7 @@ static int read_six(lmb_world_pictures *out, world_pictures *own, const char *pr
             return 0;
         }
     }
-    if (out->face_size == 0 && file_is_folder(prefix)) {
-        const char *slash = prefix[strlen(prefix) - 1] == '/' ? "" : "/";
-        return report_fail(r, "%s: a folder; give a picture, or %s%s if six faces are in it: px.png (.pfm .hdr .jpg), "
-                           "nx py ny pz nz", prefix, prefix, slash);
-    }
-    return out->face_size > 0 ||
-           report_fail(r, "%s: no such file, and no face %spx.png (.pfm .hdr .jpg; px nx py ny pz nz)", prefix, prefix);
+    return out->face_size > 0 || no_world(prefix, r);
 }
 
 /* --- all ---------------------------------------------------------------------------------------------------------- */
@@ -278,6 +284,23 @@ int world_is_there(const char *path)
         any = find_face(face, sizeof face, path, i);
     }
     return any;
+}
+
+int world_hash(uint64_t *hash, const char *path, report *r)
+{
+    char face[4096];
+    int any = 0, ok = 1;
+    if (is_there(path) || strcmp(path, "-") == 0) {
+        return slice_hash_file(hash, path, r);
+    }
+    for (int i = 0; i < 6 && ok; ++i) {
+        if (find_face(face, sizeof face, path, i)) {
+            *hash += (uint64_t)i; /* which faces are missing */
+            ok = slice_hash_file(hash, face, r);
+            any = 1;
+        }
+    }
+    return ok && (any || no_world(path, r));
 }
 
 int world_read_cube(lmb_world_pictures *out, world_pictures *own, const char *path, report *r)

@@ -25,6 +25,10 @@ int world_read_cube(lmb_world_pictures *out, world_pictures *own, const char *pa
 /* world_is_there: whether there is a file `path`, or one of six. */
 int world_is_there(const char *path);
 
+/* world_hash: adds the contents of the world's file, or of its six files, to the hash of a slice's job. Returns 1, or 0
+ * with `r` set. */
+int world_hash(uint64_t *hash, const char *path, report *r);
+
 /* world_check: reads a world before the work begins, and protects a single file from being overwritten. Sets
  * *face_size, in pixels. Returns 1, or 0 with `r` set. */
 int world_check(const char *path, int32_t *face_size, report *r);

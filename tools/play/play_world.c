@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "../common/frame_name.h"
+#include "../picture/world_read.h"
 
 int play_world_begin(play_world *w, render_options *o, report *r)
 {
@@ -24,7 +25,7 @@ int play_world_hash(const play_world *w, render_options *o, report *r)
 {
     char name[sizeof w->first];
     for (int32_t i = 1; i < w->series.count && o->slice.count > 0; ++i) {
-        if (!world_series_name(name, sizeof name, &w->series, i, r) || !slice_hash_file(&o->slice_job, name, r)) {
+        if (!world_series_name(name, sizeof name, &w->series, i, r) || !world_hash(&o->slice_job, name, r)) {
             return 0;
         }
     }

@@ -8,6 +8,7 @@
 #include "../common/option_value.h"
 #include "../common/options.h"
 #include "../picture/picture.h"
+#include "../picture/world_read.h"
 #include "light_stream.h"
 
 enum { CHOSEN = -1 }; /* from other options */
@@ -489,5 +490,5 @@ int render_options_job(render_options *inout, const option_table *t, int argc, c
     const int is_file = world != NULL && strcmp(world, "sky") != 0 && strcmp(world, "none") != 0;
     return inout->slice.count == 0 ||
            (slice_job(&inout->slice_job, inout, t, argc, argv, r) &&
-            (!is_file || slice_hash_file(&inout->slice_job, world, r)));
+            (!is_file || world_hash(&inout->slice_job, world, r)));
 }
