@@ -78,7 +78,7 @@ for way in "--gather full --quality draft" "--gather live" "--transfer box.lmt" 
     check "$way: a frame of a changing world is the same alone" cmp tone1.pfm alone1.pfm
 done
 status 0 play box.obj $rests --quality draft --world tone_%02d.pfm --world-every 2 --frames 4
-check "that the world stays is told" holds "tone_%02d.pfm ends after number 4: from frame 2 on the world stays" err.txt
+check "that the world stays is told" holds "tone_%02d.pfm ends after number 4: from picture 2 on the world stays" err.txt
 # sun ROW COLUMN: a world of radiance 1 with a lamp in one of 32 x 192 texels. Rows count from the top, unlike in a PFM.
 row=$one$one$one$one; row=$row$row$row; row=$row$row$row$row$row$row$row$row
 sun() {

@@ -77,6 +77,7 @@ printf '0,0,0\n' >one.txt
 box
 changes="relight --object box.obj --size 16x8 --eye 0,1,6 --target 0,1,0"
 status 0 $changes --world tone_%02d.pfm --world-every 2 --path rests.txt -o change_%01d.pfm
+said "tone_%02d.pfm ends after number 4: from picture 2 on the world stays"
 check "light is new in a changed world, and kept in the last one" grep -q '^light computed 3 times, kept 1 times$' out.txt
 status 0 $changes --world tone_%02d.pfm --path rests.txt -o each_%01d.pfm
 for pair in "tone_03 change_0" "between change_1" "tone_04 change_2" "tone_04 change_3" "tone_04 each_1"; do

@@ -64,6 +64,14 @@ int world_series_check(const world_series *s, int32_t first, int32_t pictures, i
     return 1;
 }
 
+void world_series_tell(const world_series *s, int32_t last_picture, int32_t every, int is_quiet)
+{
+    const double stays = (double)(s->count - 1) * (double)every;
+    report_note(is_quiet || s->count == 0 || (double)last_picture <= stays,
+                "note: %s ends after number %d: from picture %.0f on the world stays", s->pattern,
+                (int)(s->first + s->count - 1), stays);
+}
+
 /* --- a blend ------------------------------------------------------------------------------------------------------ */
 
 static float alpha_at(const lmb_world_pictures *p, int face, size_t i)

@@ -30,6 +30,9 @@ world_moment world_series_at(const world_series *s, int32_t k, int32_t every);
 int world_series_check(const world_series *s, int32_t first, int32_t pictures, int32_t every, int has_one_size,
                        report *r);
 
+/* world_series_tell: prints a note if the series ends before the last of the pictures. */
+void world_series_tell(const world_series *s, int32_t last_picture, int32_t every, int is_quiet);
+
 /* world_series_read: reads the cube of a moment. `own` takes the memory that `out` points into. Returns 1, or 0 with
  * `r` set. */
 int world_series_read(lmb_world_pictures *out, world_pictures *own, const world_series *s, world_moment at, report *r);

@@ -155,9 +155,7 @@ static void tell_end(const play *p)
     const double last = (double)(p->o.from + p->o.frames - 1) / (double)p->o.fps;
     const double stays = (double)(p->world.series.count - 1) * (double)every_of(p);
     const int is_changed = (double)(p->o.from + p->o.frames - 1) > stays;
-    report_note(p->o.render.view.is_quiet || p->world.series.count == 0 || !is_changed,
-                "note: %s ends after number %d: from frame %.0f on the world stays", p->world.series.pattern,
-                (int)(p->world.series.first + p->world.series.count - 1), stays);
+    world_series_tell(&p->world.series, p->o.from + p->o.frames - 1, every_of(p), p->o.render.view.is_quiet);
     report_note(p->o.render.view.is_quiet || !play_motion_is_over(&p->motion, last) ||
                     (p->world.series.count > 0 && !is_changed),
                 "note: %s ends at %.3g s, the frames at %.3g s: from there on nothing moves",

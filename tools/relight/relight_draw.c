@@ -497,6 +497,7 @@ static int check_worlds(const stage *s, report *r)
         !world_series_check(&s->light->series, 0, s->path.count, every, every > 1, r)) {
         return 0;
     }
+    world_series_tell(&s->light->series, (int32_t)s->path.count - 1, every, s->o->view.is_quiet);
 #else
     (void)s, (void)r;
 #endif
