@@ -86,6 +86,12 @@
 #define LMB_FACETS LMB_TREES
 #endif
 
+/* Frames with LMB_SHOW_DIRECT of at most this many triangles trace the lit pixels that shadow maps doubt, in builds
+ * with LMB_FACETS, for 116 bytes a triangle. In larger scenes, sealed rooms may show lit pixels. 0: never. */
+#ifndef LMB_TRACED_TRIANGLES
+#define LMB_TRACED_TRIANGLES 16384u
+#endif
+
 /* 0: this build has no light at single points (lambent/live.h); frames with LMB_GATHER_LIVE are refused. Saves 12 KiB
  * of ROM on a Cortex-M4F. 0 in a build without trees. */
 #ifndef LMB_LIVE

@@ -25,69 +25,76 @@ static lmb_direct_job make_job(const lmb_light *light)
     return job;
 }
 
-#if !LMB_SHADOW_LANES
-/* doubtful: NULL, or gets bit k if the answer is LMB_LIT_IN_DOUBT. */
-ALWAYS_INLINE int pixel_is_lit(lmb_shadow_query *query, uint64_t *doubtful, const lmb_tile *tile, int k)
+/* The irradiance of all pixels without shadows. Returns the pixels that the light reaches; without a map, all. */
+ALWAYS_INLINE lmb_lit_pixels find_direct(lmb_irradiance *one, lmb_shadow_query *query, const lmb_kernels *kernels,
+                                         const lmb_tile *tile)
 {
-    lmb_receiver r;
-    r.position = vec3(tile->position[0][k], tile->position[1][k], tile->position[2][k]);
-    r.face = vec3(tile->face[0][k], tile->face[1][k], tile->face[2][k]);
-    r.id = tile->id[k];
-    const int lit = lmb_is_lit(query, &r);
-    if (doubtful != NULL && lit == LMB_LIT_IN_DOUBT) {
-        *doubtful |= (uint64_t)1 << k;
-    }
-    return lit;
-}
-#endif
-
-/* doubtful: NULL, or gets the lit pixels whose answer is LMB_LIT_IN_DOUBT. */
-ALWAYS_INLINE lmb_status add_direct(lmb_irradiance *inout, uint64_t *doubtful, const lmb_kernels *kernels,
-                                    const lmb_tile *tile, const lmb_view *view, const lmb_scene *scene,
-                                    const lmb_light *light, const lmb_shadow_map *map)
-{
-    lmb_shadow_query query;
-    lmb_irradiance one;
-    if (inout == NULL || kernels == NULL || tile == NULL || view == NULL || scene == NULL || light == NULL) {
-        return LMB_ERR_ARG;
-    }
-    lmb_direct_job job = make_job(light);
-    lmb_shadow_ask(&query, map, light, scene, view);
-    kernels->direct(&one, tile, &job);
+    lmb_lit_pixels out = {0, 0, 0};
+    const lmb_direct_job job = make_job(query->light);
+    kernels->direct(one, tile, &job);
 #if LMB_SHADOW_LANES
-    const uint64_t shown = kernels->direct_shown(&one, tile);
-    uint64_t unused, lit = shown;
-    if (map != NULL) {
-        lit = lmb_shadow_lit(doubtful != NULL ? doubtful : &unused, &query, kernels, tile, shown);
+    out.lit = kernels->direct_shown(one, tile);
+    if (query->map != NULL) {
+        lmb_shadow_lit(&out, query, kernels, tile, out.lit);
     }
-    kernels->direct_add(inout, &one, lit);
 #else
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        int dark = tile->id[k] == 0 || (one.rgb[0][k] == 0.0f && one.rgb[1][k] == 0.0f && one.rgb[2][k] == 0.0f);
-        if (!dark && (map == NULL || pixel_is_lit(&query, doubtful, tile, k))) {
-            for (int c = 0; c < 3; ++c) {
-                inout->rgb[c][k] += one.rgb[c][k];
-            }
+        const int dark =
+            tile->id[k] == 0 || (one->rgb[0][k] == 0.0f && one->rgb[1][k] == 0.0f && one->rgb[2][k] == 0.0f);
+        const lmb_receiver r = {vec3(tile->position[0][k], tile->position[1][k], tile->position[2][k]),
+                                vec3(tile->face[0][k], tile->face[1][k], tile->face[2][k]), tile->id[k]};
+        const int lit = dark ? 0 : query->map == NULL ? 1 : lmb_is_lit(query, &r);
+        out.lit |= (uint64_t)(lit != 0) << k;
+        out.doubtful |= (uint64_t)(lit == LMB_LIT_IN_DOUBT) << k;
+        out.beside |= (uint64_t)(lit == LMB_LIT_BESIDE) << k;
+    }
+#endif
+    return out;
+}
+
+static void add_lit(lmb_irradiance *inout, const lmb_kernels *kernels, const lmb_irradiance *one, uint64_t lit)
+{
+#if LMB_SHADOW_LANES
+    kernels->direct_add(inout, one, lit);
+#else
+    (void)kernels;
+    for (uint64_t bits = lit; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        for (int c = 0; c < 3; ++c) {
+            inout->rgb[c][k] += one->rgb[c][k];
         }
     }
 #endif
-    return LMB_OK;
 }
 
 lmb_status lmb_direct_tile(lmb_irradiance *inout, const lmb_kernels *kernels, const lmb_tile *tile,
                            const lmb_view *view, const lmb_scene *scene, const lmb_light *light,
                            const lmb_shadow_map *map)
 {
-    return add_direct(inout, NULL, kernels, tile, view, scene, light, map);
+    lmb_shadow_query query;
+    lmb_irradiance one;
+    if (inout == NULL || kernels == NULL || tile == NULL || view == NULL || scene == NULL || light == NULL) {
+        return LMB_ERR_ARG;
+    }
+    lmb_shadow_ask(&query, map, light, scene, view);
+    const lmb_lit_pixels found = find_direct(&one, &query, kernels, tile);
+    add_lit(inout, kernels, &one, found.lit);
+    return LMB_OK;
 }
 
 #if LMB_FACETS
 
-lmb_status lmb_direct_doubtful(lmb_irradiance *inout, uint64_t *doubtful, const light_tile *to, const lmb_light *light,
-                               const lmb_shadow_map *map)
+void lmb_direct_find(lmb_irradiance *one, lmb_lit_pixels *out, const light_tile *to, const lmb_light *light,
+                     const lmb_shadow_map *map)
 {
-    *doubtful = 0;
-    return add_direct(inout, doubtful, to->kernels, to->tile, to->view, to->scene, light, map);
+    lmb_shadow_query query;
+    lmb_shadow_ask(&query, map, light, to->scene, to->view);
+    *out = find_direct(one, &query, to->kernels, to->tile);
+}
+
+void lmb_direct_add(lmb_irradiance *inout, const lmb_kernels *kernels, const lmb_irradiance *one, uint64_t lit)
+{
+    add_lit(inout, kernels, one, lit);
 }
 
 #endif

@@ -5,6 +5,7 @@
 #include <lambent/light.h>
 
 #include "../base/exact.h"
+#include "shadow.h"
 
 typedef struct light_tile {
     const lmb_kernels *kernels;
@@ -22,10 +23,11 @@ lmb_status lmb_light_tile_add(lmb_irradiance *sum, lmb_glossy *glossy, lmb_irrad
 
 #if LMB_FACETS
 
-/* lmb_direct_tile that also sets `doubtful`: lit pixels around which the map shows only other triangles, as in a corner
- * smaller than a texel. */
-lmb_status lmb_direct_doubtful(lmb_irradiance *inout, uint64_t *doubtful, const light_tile *to, const lmb_light *light,
-                               const lmb_shadow_map *map);
+/* The two halves of lmb_direct_tile: the irradiance without shadows and the pixels that the map takes for lit, then the
+ * sum over lit pixels. */
+void lmb_direct_find(lmb_irradiance *one, lmb_lit_pixels *out, const light_tile *to, const lmb_light *light,
+                     const lmb_shadow_map *map);
+void lmb_direct_add(lmb_irradiance *inout, const lmb_kernels *kernels, const lmb_irradiance *one, uint64_t lit);
 
 #endif
 

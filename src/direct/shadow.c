@@ -364,8 +364,10 @@ int lmb_is_lit(lmb_shadow_query *query, const lmb_receiver *r)
     if (!own) {
         return (over || lit_by_depth(query, &at, r, noise)) && !is_in_tip(query, r, &at) ? LMB_LIT_IN_DOUBT : 0;
     }
-#endif
+    return LMB_LIT_BESIDE;
+#else
     return over || lit_by_depth(query, &at, r, noise);
+#endif
 }
 
 #if LMB_SHADOW_LANES
@@ -489,12 +491,11 @@ static lmb_shadow_job shadow_job_of(const lmb_shadow_query *query, int32_t face)
     return job;
 }
 
-/* Masks of LMB_SHADOW_PIXELS pixels: lit, lit in doubt, and those that need lmb_is_lit. */
+/* Masks of LMB_SHADOW_PIXELS pixels, as in lmb_lit_pixels. unclear: those that need lmb_is_lit. */
 typedef struct shadow_lit {
-    uint32_t lit, doubtful, unclear;
+    uint32_t lit, doubtful, beside, unclear;
 } shadow_lit;
 
-#if LMB_FACETS
 /* Returns the pixels that tips of triangles shadow, among lit ones around which the map shows only other triangles. */
 NOINLINE uint32_t in_tips(lmb_shadow_query *query, const lmb_tile *tile, int first, uint32_t doubtful)
 {
@@ -510,13 +511,12 @@ NOINLINE uint32_t in_tips(lmb_shadow_query *query, const lmb_tile *tile, int fir
     }
     return out;
 }
-#endif
 
 NOINLINE shadow_lit lit_of_some(const lmb_shadow_query *query, const lmb_kernels *kernels, const lmb_tile *tile,
                                 int first, uint32_t asked)
 {
     uint32_t seen[4][LMB_SHADOW_PIXELS], in;
-    shadow_lit out = {0, 0, 0};
+    shadow_lit out = {0, 0, 0, 0};
     for (uint32_t left = asked; left != 0; left &= ~in) {
         const int k = lowest_bit(left);
         const int32_t f =
@@ -532,39 +532,39 @@ NOINLINE shadow_lit lit_of_some(const lmb_shadow_query *query, const lmb_kernels
         const uint32_t clear = some & ~to.unclear & (to.shadows | to.own | to.over), lit = clear & ~to.shadows;
         out.lit |= own | lit;
         out.doubtful |= lit & ~to.own;
+        out.beside |= lit & to.own;
         out.unclear |= some & ~clear;
         in |= 1u << k;
     }
     return out;
 }
 
-uint64_t lmb_shadow_lit(uint64_t *doubtful, lmb_shadow_query *query, const lmb_kernels *kernels, const lmb_tile *tile,
-                        uint64_t asked)
+void lmb_shadow_lit(lmb_lit_pixels *out, lmb_shadow_query *query, const lmb_kernels *kernels, const lmb_tile *tile,
+                    uint64_t asked)
 {
     const int nested = query->map->faces > 1 && light_kind_is(query->light->kind, LIGHT_FAR);
-    uint64_t out = 0, unclear = nested ? asked : 0;
-    *doubtful = 0;
+    uint64_t unclear = nested ? asked : 0;
+    out->lit = out->doubtful = out->beside = 0;
     for (int first = 0; first < LMB_TILE_PIXELS && !nested; first += LMB_SHADOW_PIXELS) {
         const uint32_t some = (uint32_t)(asked >> first) & ((1u << LMB_SHADOW_PIXELS) - 1);
         const shadow_lit l = lit_of_some(query, kernels, tile, first, some);
-        out |= (uint64_t)l.lit << first;
-        *doubtful |= (uint64_t)l.doubtful << first;
+        out->lit |= (uint64_t)l.lit << first;
+        out->doubtful |= (uint64_t)l.doubtful << first;
+        out->beside |= (uint64_t)l.beside << first;
         unclear |= (uint64_t)l.unclear << first;
     }
-#if LMB_FACETS
-    for (int first = 0; first < LMB_TILE_PIXELS && *doubtful != 0; first += LMB_SHADOW_PIXELS) {
-        const uint32_t some = (uint32_t)(*doubtful >> first) & ((1u << LMB_SHADOW_PIXELS) - 1);
+    for (int first = 0; first < LMB_TILE_PIXELS && out->doubtful != 0; first += LMB_SHADOW_PIXELS) {
+        const uint32_t some = (uint32_t)(out->doubtful >> first) & ((1u << LMB_SHADOW_PIXELS) - 1);
         const uint64_t dark = some != 0 ? (uint64_t)in_tips(query, tile, first, some) << first : 0;
-        out &= ~dark;
-        *doubtful &= ~dark;
+        out->lit &= ~dark;
+        out->doubtful &= ~dark;
     }
-#endif
     for (; unclear != 0; unclear &= unclear - 1) {
         const int k = lowest_bit_64(unclear), lit = is_lit_at(query, tile, k);
-        out |= (uint64_t)(lit != 0) << k;
-        *doubtful |= (uint64_t)(lit == LMB_LIT_IN_DOUBT) << k;
+        out->lit |= (uint64_t)(lit != 0) << k;
+        out->doubtful |= (uint64_t)(lit == LMB_LIT_IN_DOUBT) << k;
+        out->beside |= (uint64_t)(lit == LMB_LIT_BESIDE) << k;
     }
-    return out;
 }
 
 #endif

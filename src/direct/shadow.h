@@ -4,6 +4,7 @@
 
 #include <lambent/map.h>
 
+#include "../base/vec.h"
 #include "../lane/kernels.h"
 
 /* A pixel's surface point. */
@@ -12,8 +13,14 @@ typedef struct lmb_receiver {
     uint32_t id;             /* its own triangle never shadows it */
 } lmb_receiver;
 
-/* The answer in builds with LMB_FACETS for a lit point whose triangle none of the four texels around it names. */
-enum { LMB_LIT_IN_DOUBT = 2 };
+/* Answers in builds with LMB_FACETS for a lit point whose triangle is named by none of the four texels around it, and
+ * by some but not all. */
+enum { LMB_LIT_IN_DOUBT = 2, LMB_LIT_BESIDE = 3 };
+
+/* Pixels of a tile that the map takes for lit. doubtful, beside: those with the answers above. */
+typedef struct lmb_lit_pixels {
+    uint64_t lit, doubtful, beside;
+} lmb_lit_pixels;
 
 #if LMB_FACETS
 /* A triangle in a face of the map. */
@@ -37,13 +44,22 @@ typedef struct lmb_shadow_query {
 #endif
 } lmb_shadow_query;
 
+#if LMB_FACETS
+enum { MAX_FEW_LIT = 16 };
+
+/* Returns 1 if the map is sure of no lit pixel of a tile, or few are lit: as in a sealed room. */
+static inline int lit_is_unsure(const lmb_lit_pixels *l)
+{
+    return (l->lit & ~(l->doubtful | l->beside)) == 0 || count_bits_64(l->lit) <= MAX_FEW_LIT;
+}
+#endif
+
 void lmb_shadow_ask(lmb_shadow_query *out, const lmb_shadow_map *map, const lmb_light *light, const lmb_scene *scene,
                     const lmb_view *view);
 #if LMB_SHADOW_LANES
-/* Returns the requested pixels of a tile that lmb_is_lit would report as lit. *doubtful: those in
- * doubt (LMB_LIT_IN_DOUBT). */
-uint64_t lmb_shadow_lit(uint64_t *doubtful, lmb_shadow_query *query, const lmb_kernels *kernels, const lmb_tile *tile,
-                        uint64_t asked);
+/* The answers of lmb_is_lit for the requested pixels of a tile. */
+void lmb_shadow_lit(lmb_lit_pixels *out, lmb_shadow_query *query, const lmb_kernels *kernels, const lmb_tile *tile,
+                    uint64_t asked);
 #endif
 /* Returns 0 if the point is in shadow. */
 int lmb_is_lit(lmb_shadow_query *query, const lmb_receiver *receiver);

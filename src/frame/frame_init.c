@@ -166,13 +166,23 @@ static lmb_status place_bvh(lmb_frame *f, frame_block *b)
 
 #endif
 
+#if LMB_TREES
+/* Does a frame of direct light trace the lit pixels that shadow maps doubt? */
+static int traces_direct(const lmb_frame *f)
+{
+    const uint32_t triangles = lmb_scene_triangles(f->scene);
+    return LMB_FACETS && f->show == LMB_SHOW_DIRECT && triangles > 0 && triangles <= LMB_TRACED_TRIANGLES &&
+           lmb_frame_map_faces(f->scene) > 0;
+}
+#endif
+
 /* Places the memory for occlusion and bounced light. */
 static lmb_status place_bounced(lmb_frame *f, const lmb_frame_settings *s, frame_block *b)
 {
     const frame_solver *solver = lmb_solver_for(f, s);
     lmb_status status = LMB_OK;
 #if LMB_TREES
-    if (f->many_lights != NULL || (solver != NULL && solver->receive != NULL)) {
+    if (f->many_lights != NULL || (solver != NULL && solver->receive != NULL) || traces_direct(f)) {
         status = place_bvh(f, b);
     }
 #endif

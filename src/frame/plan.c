@@ -99,7 +99,7 @@ static void plan_bvh(planner *p)
         leave_out(p, LMB_PLAN_BVH, f->show == LMB_SHOW_DIRECT ? LMB_WHY_NOT_SHOWN : LMB_WHY_NOT_ASKED);
         return;
     }
-    row->op[LMB_OP_BVH] = (double)p->r->triangles;
+    row->op[LMB_OP_BVH] = (requires_full_bvh(f) ? 1.0 : 0.07) * (double)p->r->triangles;
     if (reuses(p->r, LMB_REUSE_BVH)) {
         row->op[LMB_OP_BVH] = 0.0;
         leave_out(p, LMB_PLAN_BVH, LMB_WHY_REUSED);

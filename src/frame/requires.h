@@ -155,10 +155,16 @@ static inline int has_bounces(const lmb_render *r)
 
 /* Many lights require the BVH even if this picture does not show them, because you may reuse the solution for a view
  * that does. */
-static inline int requires_bvh(const lmb_frame *f)
+static inline int requires_full_bvh(const lmb_frame *f)
 {
     return (requires_cut(f) && f->occlusion == LMB_OCCLUSION_EXACT) ||
            (f->many_lights != NULL && f->bvh.triangle != NULL);
+}
+
+/* Or only for the lit pixels that shadow maps doubt? They are few, so a BVH that is built fast does. */
+static inline int requires_bvh(const lmb_frame *f)
+{
+    return requires_full_bvh(f) || (LMB_FACETS && f->show == LMB_SHOW_DIRECT && f->bvh.triangle != NULL);
 }
 
 /* The BVH that occludes light of single points, or NULL; and the counts of a thread. */

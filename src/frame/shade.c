@@ -17,35 +17,63 @@ static void show_irradiance(lmb_radiance *out, const lmb_irradiance *e) { memcpy
 
 enum { MAX_ALONE = 2 /* pixels of a tile that a light reaches on their own */ };
 
-/* The corner of a room may be smaller than a texel of a shadow map, and the texel then shows a surface behind the room.
- * This traces segments to the light from the pixels where that is so, and from all lit ones if they are few.
- * lit: the light of this light alone. */
-NOINLINE void leave_out_leaks(lmb_irradiance *lit, lmb_band_scratch *s, const lmb_frame *f, const lmb_light *light,
-                              const light_tile *on, uint64_t doubtful)
+/* Returns those pixels that the light does not reach. */
+static uint64_t trace_pixels(lmb_traversal *t, const lmb_frame *f, const lmb_light *light, const lmb_tile *tile,
+                             uint64_t asked)
+{
+    return light->kind == LMB_LIGHT_DIRECTIONAL
+               ? lmb_occluded_sun(f->kernels, t, &f->bvh, tile, asked, normalize3(mul3(light->direction, -1.0f)))
+               : lmb_occluded_tile(f->kernels, t, &f->bvh, tile, asked, light->position,
+                                   lmb_tile_noise(tile, asked) + lmb_place_noise(light->position, 0.0f));
+}
+
+/* The same for pixels whose position lies outside the triangle that they show, from positions in the triangle: past the
+ * foot of a wall, a position is outside the room. */
+NOINLINE uint64_t trace_moved(lmb_band_scratch *s, const lmb_frame *f, const lmb_light *light, const lmb_tile *tile,
+                              uint64_t asked)
+{
+    lmb_tile *moved = &s->together;
+    uint64_t out = 0;
+    for (uint64_t bits = asked; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        const lmb_vec3 at = tile_vec(tile->position, k), on = lmb_place_onto_triangle(f->scene, tile->id[k], at);
+        if (on.x != at.x || on.y != at.y || on.z != at.z) {
+            tile_put_pixel(moved, k, tile, k);
+            moved->position[0][k] = on.x;
+            moved->position[1][k] = on.y;
+            moved->position[2][k] = on.z;
+            out |= (uint64_t)1 << k;
+        }
+    }
+    if (out != 0) {
+        out = trace_pixels(&s->gather.cut.use.traversal, f, light, moved, out);
+        memset(moved, 0, sizeof *moved);
+    }
+    return out;
+}
+
+/* The corner of a room, or triangles of walls, may be smaller than a texel of a shadow map. This traces segments to the
+ * light from the pixels that are lit because the map shows only other triangles around them. If the map is sure of no
+ * lit pixel of the tile, or few pixels are lit, it also traces those around which the map shows other triangles too: on
+ * a ground that continues outside a room, the map shows the ground beside the foot of the wall. Returns the lit
+ * pixels. */
+NOINLINE uint64_t without_leaks(lmb_band_scratch *s, const lmb_frame *f, const lmb_light *light, const light_tile *on,
+                                const lmb_lit_pixels *found)
 {
     lmb_traversal *t = &s->gather.cut.use.traversal;
     const lmb_view *view = on->view;
-    uint64_t asked = 0, dark;
-    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        asked |= (uint64_t)(lit->rgb[0][k] != 0.0f || lit->rgb[1][k] != 0.0f || lit->rgb[2][k] != 0.0f) << k;
-    }
-    asked = count_bits_64(asked) > MAX_ALONE ? doubtful : asked;
+    const int count = count_bits_64(found->lit);
+    const uint64_t asked =
+        count <= MAX_ALONE ? found->lit : found->doubtful | (lit_is_unsure(found) ? found->beside : 0);
     if (asked == 0) {
-        return;
+        return found->lit;
     }
     s->counts.corner_segments += (uint64_t)count_bits_64(asked);
     traversal_bound(t);
     t->eye_kind = view->kind == LMB_PERSPECTIVE ? LMB_EYE_PLACE : LMB_EYE_FAR;
     t->eye = view->kind == LMB_PERSPECTIVE ? view->eye : view->back;
-    dark = light->kind == LMB_LIGHT_DIRECTIONAL
-               ? lmb_occluded_sun(f->kernels, t, &f->bvh, on->tile, asked, normalize3(mul3(light->direction, -1.0f)))
-               : lmb_occluded_tile(f->kernels, t, &f->bvh, on->tile, asked, light->position,
-                                   lmb_tile_noise(on->tile, asked) + lmb_place_noise(light->position, 0.0f));
-    for (uint64_t bits = dark; bits != 0; bits &= bits - 1) {
-        for (int c = 0; c < 3; ++c) {
-            lit->rgb[c][lowest_bit_64(bits)] = 0.0f;
-        }
-    }
+    const uint64_t dark = trace_pixels(t, f, light, on->tile, asked);
+    return found->lit & ~dark & ~trace_moved(s, f, light, on->tile, asked & ~dark);
 }
 
 /* lmb_light_tile_add without leaks. */
@@ -53,21 +81,18 @@ static lmb_status add_tight(lmb_glossy *glossy, lmb_band_scratch *s, const lmb_r
                             uint32_t i)
 {
     const lmb_light *light = &r->frame.scene->lights[i];
-    uint64_t doubtful;
-    memset(&s->indirect, 0, sizeof s->indirect);
-    lmb_status status = lmb_direct_doubtful(&s->indirect, &doubtful, on, light, &r->maps[i]);
-    if (status == LMB_OK) {
-        leave_out_leaks(&s->indirect, s, &r->frame, light, on, doubtful);
-        for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-            for (int c = 0; c < 3; ++c) {
-                s->direct.rgb[c][k] += s->indirect.rgb[c][k];
-            }
-        }
-        if (glossy != NULL) {
-            status = lmb_glossy_direct(glossy, on->kernels, on->tile, &s->indirect, light);
-        }
+    lmb_lit_pixels found;
+    lmb_direct_find(&s->indirect, &found, on, light, &r->maps[i]);
+    const uint64_t lit = without_leaks(s, &r->frame, light, on, &found);
+    lmb_direct_add(&s->direct, on->kernels, &s->indirect, lit);
+    if (glossy == NULL) {
+        return LMB_OK;
     }
-    return status;
+    for (uint64_t bits = ~lit; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        s->indirect.rgb[0][k] = s->indirect.rgb[1][k] = s->indirect.rgb[2][k] = 0.0f;
+    }
+    return lmb_glossy_direct(glossy, on->kernels, on->tile, &s->indirect, light);
 }
 
 #endif

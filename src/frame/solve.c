@@ -2,6 +2,7 @@
 
 #include "../base/vec.h"
 #include "../bounce/points.h"
+#include "../occlusion/build.h"
 #include "requires.h"
 #include "solver.h"
 #include "stages.h"
@@ -63,6 +64,12 @@ static lmb_status step_bvh(lmb_render *r)
     if (!requires_bvh(f) || reuses(r, LMB_REUSE_BVH)) {
         return LMB_OK;
     }
+#if LMB_FACETS
+    if (!requires_full_bvh(f)) {
+        lmb_bvh_build_in_order(&f->bvh, f->scene);
+        return LMB_OK;
+    }
+#endif
     const lmb_status status = lmb_bvh_build(&f->bvh, f->scene);
     f->bvh.hull.count = f->run_all ? 0 : f->bvh.hull.count;
     return status;

@@ -15,6 +15,7 @@
 #include "../base/vec.h"
 #include "../raster/resolve.h"
 #include "../raster/triangle.h"
+#include "build.h"
 #include "traversal.h"
 
 #if LMB_TREES
@@ -540,5 +541,118 @@ lmb_status lmb_bvh_build(lmb_bvh *inout, const lmb_scene *scene)
     inout->hull.count = LMB_PLAN ? inout->hull.count : 0;
     return LMB_OK;
 }
+
+#if LMB_FACETS
+
+/* --- in the scene's order ----------------------------------------------------------------------------------------- */
+
+#define MAX_ORDERED_AREA 64.0f /* of all leaves, times the scene's: rays meet about so many */
+
+/* Triangles that cannot block are left out, but for holes. */
+static void take_in_order(lmb_bvh *b, const lmb_scene *scene)
+{
+    const uint32_t all = lmb_scene_triangles(scene);
+    const lmb_instance *instance = NULL;
+    for (uint32_t id = 1; id <= all; ++id) {
+        lmb_bvh_triangle *to = &b->triangle[b->triangle_count];
+        lmb_triangle from;
+        lmb_vec3 normal;
+        float longest;
+        if (fetch_drawable(&from, &instance, scene, id) && triangle_cross(&normal, &longest, &from)) {
+            memcpy(to->corner, from.corner, sizeof to->corner);
+            to->normal = normalize3(normal);
+            to->id = id | (from.material->flags & LMB_ALPHA_MASK ? LMB_BVH_MASKED : 0);
+            ++b->triangle_count;
+        }
+    }
+}
+
+static item_span span_of_triangles(const lmb_bvh_triangle *t, uint32_t count)
+{
+    item_span s = span_none();
+    for (uint32_t i = 0; i < 3 * count; ++i) {
+        const lmb_vec3 p = t[i / 3].corner[i % 3];
+        const item_span one = {{p.x, p.y, p.z, 0.0f}, {p.x, p.y, p.z, 0.0f}};
+        span_join(&s, one);
+    }
+    return s;
+}
+
+static item_span span_of_node(const lmb_boxes *node)
+{
+    item_span s = span_none();
+    for (int i = 0; i < LMB_BOXES; ++i) {
+        const item_span one = {{node->low[0][i], node->low[1][i], node->low[2][i], 0.0f},
+                               {node->high[0][i], node->high[1][i], node->high[2][i], 0.0f}};
+        span_join(&s, one);
+    }
+    return s;
+}
+
+/* Fills node `at` with up to sixteen leaves, or with nodes of the level below; `part`: its number on its level. Leaves
+ * have four triangles. Returns half the area of the leaves. */
+static float fill_in_order(lmb_bvh *b, uint32_t at, uint32_t part, int is_last, uint32_t below, uint32_t below_count)
+{
+    float area = 0.0f;
+    for (uint32_t i = 0; i < LMB_BOXES; ++i) {
+        const uint32_t k = part * LMB_BOXES + i, first = is_last ? k * MAX_LEAF_TRIANGLES : below + k;
+        run r = {{{0}, {0}}, 0.0f, first, 0, 0};
+        if (k >= below_count) {
+            set_no_box(&b->node[at], (int)i);
+            continue;
+        }
+        if (is_last) {
+            r.count = b->triangle_count - first < MAX_LEAF_TRIANGLES ? b->triangle_count - first : MAX_LEAF_TRIANGLES;
+            r.box = span_of_triangles(b->triangle + first, r.count);
+            area += half_area(&r.box);
+        } else {
+            r.box = span_of_node(&b->node[first]);
+        }
+        set_run_box(&b->node[at], (int)i, &r);
+    }
+    return area;
+}
+
+static uint32_t sixteenths(uint32_t n) { return (n + LMB_BOXES - 1) / LMB_BOXES; }
+
+void lmb_bvh_build_in_order(lmb_bvh *inout, const lmb_scene *scene)
+{
+    uint32_t many[LMB_TRAVERSAL_LEVELS + 1], levels = 1; /* nodes of a level, from the last one up to the root */
+    float area = 0.0f;
+    inout->node_count = inout->triangle_count = 0;
+    inout->margin = inout->noise = 0.0f;
+    inout->hull.count = 0;
+    inout->scene = scene;
+    if (lmb_scene_triangles(scene) > inout->triangle_cap) {
+        return;
+    }
+    take_in_order(inout, scene);
+    if (inout->triangle_count == 0) {
+        return;
+    }
+    const uint32_t leaves = (inout->triangle_count + MAX_LEAF_TRIANGLES - 1) / MAX_LEAF_TRIANGLES;
+    for (many[0] = sixteenths(leaves); many[levels - 1] > 1; ++levels) {
+        many[levels] = sixteenths(many[levels - 1]);
+    }
+    for (uint32_t i = 0; i < levels; ++i) {
+        inout->node_count += many[i];
+    }
+    uint32_t from = inout->node_count, below = 0;
+    for (uint32_t i = 0; i < levels; ++i) {
+        from -= many[i];
+        for (uint32_t k = 0; k < many[i]; ++k) {
+            area += fill_in_order(inout, from + k, k, i == 0, below, i == 0 ? leaves : many[i - 1]);
+        }
+        below = from;
+    }
+    const item_span all = span_of_node(inout->node);
+    inout->margin = half_box_margin(vec3(all.low[0], all.low[1], all.low[2]),
+                                    vec3(all.high[0], all.high[1], all.high[2]));
+    if (area > MAX_ORDERED_AREA * half_area(&all)) {
+        (void)lmb_bvh_build(inout, scene);
+    }
+}
+
+#endif
 
 #endif
