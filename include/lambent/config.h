@@ -106,7 +106,7 @@
 /* 1: draw.h draws only triangles and polygons, with depth, alpha, two texture stages and the 2D calls; states that use
  * more are refused: lines, points, polygon modes, patterns, stencil, logic op, fog, clip planes, depth offset, combined
  * stages, second and back colours, shaders, counts of passed pixels, positions with w. lmb_draw_light,
- * lmb_draw_fragment and lmb_draw_shares are missing. Saves 17 KiB of ROM on a Cortex-M4F. */
+ * lmb_draw_fragment, lmb_draw_shares and lmb_draw_steps are missing. Saves 17 KiB of ROM on a Cortex-M4F. */
 #ifndef LMB_DRAW_SMALL
 #define LMB_DRAW_SMALL 0
 #endif

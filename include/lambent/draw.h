@@ -308,6 +308,10 @@ void lmb_draw_fragment(lmb_draw_fragment_at *out, const lmb_draw_pixels_of *pixe
 /* lmb_draw_shares: the shares of all pixels of the mask at once, equal to those of lmb_draw_fragment. Values
  * of other pixels are undefined. */
 void lmb_draw_shares(float out[2][64], const lmb_draw_pixels_of *pixels);
+
+/* lmb_draw_steps: by_x and by_y of all pixels of the mask at once, equal to those of lmb_draw_fragment. Values of other
+ * pixels are undefined. */
+void lmb_draw_steps(float by_x[2][64], float by_y[2][64], const lmb_draw_pixels_of *pixels);
 #endif
 
 /* lmb_blit: copy an image to (x, y) of a surface; parts outside the surface are cut off.

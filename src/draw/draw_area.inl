@@ -1,6 +1,7 @@
-/* draw_area.inl: all tiles of a triangle without texture and fog in one call, LANES pixels at a time. Layer 4.
+/* draw_area.inl: all tiles of a triangle in one call, LANES pixels at a time. Layer 4.
  *
- * Values equal those of draw_shape.c and draw_tile.c. What the tiles share is set up once for the triangle. */
+ * Values equal those of draw_shape.c and draw_tile.c. What the tiles share is set up once for the triangle. With a
+ * texture or fog, colours take a call per tile, so that they do not share their stack with the edges. */
 
 #if !defined(LANE_PLAIN)
 #if LANES > LMB_TILE
@@ -224,7 +225,73 @@ LANE_INLINE void area_draw_all(lmb_draw_area *a, const area_walk *w, int usual)
     }
 }
 
-static void KERNEL(draw_area)(lmb_draw_area *a)
+/* --- with a texture or fog ---------------------------------------------------------------------------------------- */
+
+/* The pixels of the tile at (x, y) that are in the box and inside all edges, which are e at the first pixel. */
+LANE_NOINLINE uint64_t KERNEL(area_mask)(const lmb_draw_area *a, const int64_t e[3], int32_t x, int32_t y)
+{
+    int32_t held[3];
+    int64_t inside = 0; /* negative: some pixel is outside an edge */
+    for (int i = 0; i < 3; ++i) {
+        const int32_t ex = a->edge_x[i], ey = a->edge_y[i];
+        inside |= e[i] + 7 * ((int64_t)(ex < 0 ? ex : 0) + (ey < 0 ? ey : 0));
+        held[i] = (int32_t)(e[i] < AREA_FAR ? e[i] : AREA_FAR);
+    }
+    return area_box(a, x, y) & (inside >= 0 ? ~(uint64_t)0 : KERNEL(draw_cover)(held, a->edge_x, a->edge_y));
+}
+
+LANE_NOINLINE void KERNEL(area_painted_tile)(lmb_draw_area *a, const draw_look *look, uint64_t mask, int32_t x,
+                                             int32_t y)
+{
+    lmb_draw_patch *p = &a->pixels;
+    const double at_x = a->x + x, at_y = a->y + y;
+    if (a->tests) {
+        p->depth = a->depth + (ptrdiff_t)y * p->depth_step + x;
+        area_slope(&p->d, a->plane[0], at_x, at_y);
+        mask = KERNEL(draw_test)(p, mask);
+        if (mask == 0) {
+            return;
+        }
+    }
+    p->colour = a->colour + (ptrdiff_t)y * p->colour_stride + 4 * (ptrdiff_t)x;
+    area_slope(&p->n1, a->plane[1], at_x, at_y);
+    area_slope(&p->n2, a->plane[2], at_x, at_y);
+    if (!p->is_even) {
+        area_slope(&p->q, a->plane[3], at_x, at_y);
+    }
+    draw_usual_tile(p, mask, look);
+}
+
+LANE_NOINLINE void KERNEL(area_painted)(lmb_draw_area *a)
+{
+    const draw_look look = draw_look_of(&a->pixels, draw_meets(a->pixels.state));
+    int64_t high[3];
+    for (int i = 0; i < 3; ++i) {
+        const int32_t ex = a->edge_x[i], ey = a->edge_y[i];
+        high[i] = 7 * ((int64_t)(ex > 0 ? ex : 0) + (ey > 0 ? ey : 0));
+    }
+    for (int32_t y = 0; y <= a->y1; y += LMB_TILE) {
+        int64_t e[3];
+        for (int i = 0; i < 3; ++i) {
+            e[i] = a->edge[i] + (int64_t)a->edge_y[i] * y + high[i];
+        }
+        int32_t x = KERNEL(area_first)(a, e);
+        for (int i = 0; i < 3; ++i) {
+            e[i] += (int64_t)a->edge_x[i] * x - high[i];
+        }
+        for (; x <= a->x1 && ((e[0] + high[0]) | (e[1] + high[1]) | (e[2] + high[2])) >= 0; x += LMB_TILE) {
+            const uint64_t mask = KERNEL(area_mask)(a, e, x, y);
+            if (mask != 0) {
+                KERNEL(area_painted_tile)(a, &look, mask, x, y);
+            }
+            for (int i = 0; i < 3; ++i) {
+                e[i] += (int64_t)a->edge_x[i] * LMB_TILE;
+            }
+        }
+    }
+}
+
+LANE_NOINLINE void KERNEL(area_bare)(lmb_draw_area *a)
 {
     const lmb_draw_state *s = a->pixels.state;
     area_walk w;
@@ -234,6 +301,16 @@ static void KERNEL(draw_area)(lmb_draw_area *a)
         area_draw_all(a, &w, 1);
     } else {
         area_draw_all(a, &w, 0);
+    }
+}
+
+static void KERNEL(draw_area)(lmb_draw_area *a)
+{
+    const lmb_draw_state *s = a->pixels.state;
+    if (s->stage[0].texture != NULL || s->fog != LMB_DRAW_FOG_NONE) {
+        KERNEL(area_painted)(a);
+    } else {
+        KERNEL(area_bare)(a);
     }
 }
 #endif

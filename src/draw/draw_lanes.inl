@@ -3,6 +3,8 @@
  * Values equal those of draw_tile.c and draw_texel.c. Unused parts of a state cost a branch per tile, or per vector. */
 #include <string.h>
 
+#define DRAW_LOG2_E 1.44269504f
+
 /* Pixels inside all three edges. */
 static uint64_t KERNEL(draw_cover)(const int32_t e[3], const int32_t ex[3], const int32_t ey[3])
 {
@@ -124,10 +126,15 @@ typedef struct draw_share {
     lane b1, b2;
 } draw_share;
 
+LANE_INLINE lane draw_inverse(lane q)
+{
+    return lane_keep(lane_lt(lane_splat(1e-30f), q), lane_div(lane_splat(1.0f), q));
+}
+
 /* Divides by q. */
 LANE_INLINE void draw_even_out(draw_share *s, lane q)
 {
-    const lane inverse = lane_keep(lane_lt(lane_splat(1e-30f), q), lane_div(lane_splat(1.0f), q));
+    const lane inverse = draw_inverse(q);
     s->b1 = lane_mul(s->b1, inverse);
     s->b2 = lane_mul(s->b2, inverse);
 }
@@ -251,14 +258,27 @@ LANE_PART draw_codes draw_stage_lanes(draw_codes v, const lmb_draw_patch *p, int
     return v;
 }
 
-LANE_INLINE draw_codes draw_fogged(draw_codes v, const lmb_draw_patch *p, const draw_share *s)
+/* The share that fog leaves, as a code. */
+LANE_INLINE lanei draw_fog_code(const lmb_draw_patch *p, const draw_share *s)
 {
     const lmb_draw_state *state = p->state;
-    const lane left = lane_sub(lane_splat(state->fog_end), draw_value_at(p, LMB_DRAW_VALUES - 1, s));
-    const lane share = lane_div(left, lane_splat(state->fog_end - state->fog_start));
-    const lanei code = draw_code(lane_mul(share, lane_splat(255.0f)));
+    const lane c = draw_value_at(p, LMB_DRAW_VALUES - 1, s);
+    lane left;
+    if (state->fog == LMB_DRAW_FOG_LINEAR) {
+        left = lane_div(lane_sub(lane_splat(state->fog_end), c), lane_splat(state->fog_end - state->fog_start));
+    } else {
+        const lane thick = lane_mul(lane_splat(state->fog_density), c);
+        const lane by = state->fog == LMB_DRAW_FOG_EXP ? thick : lane_mul(thick, thick);
+        left = lane_exp2(lane_mul(by, lane_splat(-DRAW_LOG2_E)));
+    }
+    return draw_code(lane_mul(left, lane_splat(255.0f)));
+}
+
+LANE_INLINE draw_codes draw_fogged(draw_codes v, const lmb_draw_patch *p, const draw_share *s)
+{
+    const lanei code = draw_fog_code(p, s);
     for (int i = 0; i < 3; ++i) {
-        v.c[i] = draw_lane_between(v.c[i], lanei_splat(state->fog_colour[i]), code);
+        v.c[i] = draw_lane_between(v.c[i], lanei_splat(p->state->fog_colour[i]), code);
     }
     return v;
 }
@@ -428,12 +448,11 @@ LANE_INLINE draw_codes draw_colour_of(const lmb_draw_patch *p, const draw_share 
 /* --- one texture, blended by alpha -------------------------------------------------------------------------------- */
 
 #if !defined(LANE_PLAIN) /* in plain C the general kernel is faster */
-/* 1: the usual states: at most one texture, no fog, all channels, opaque or blended by alpha. */
+/* 1: the usual states: at most one texture, all channels, opaque or blended by alpha. */
 static int draw_is_usual(const lmb_draw_state *s, int meets)
 {
     const lmb_draw_stage *stage = &s->stage[0];
-    return meets <= DRAW_MEET_ADD && s->colour_mask == 15 && s->fog == LMB_DRAW_FOG_NONE &&
-           s->stage[1].texture == NULL &&
+    return meets <= DRAW_MEET_ADD && s->colour_mask == 15 && s->stage[1].texture == NULL &&
            (stage->texture == NULL || stage->mode == LMB_DRAW_MODULATE || stage->mode == LMB_DRAW_REPLACE);
 }
 
@@ -541,8 +560,8 @@ LANE_INLINE draw_found draw_find(const draw_brush *b, const draw_axes *a, const 
     return f;
 }
 
-/* Blends the pixels onto `was`. */
-LANE_INLINE lanei draw_made(const draw_brush *b, const draw_found *f, uint32_t bits, int swaps, lanei was)
+/* The colours of the pixels. */
+LANE_INLINE lanei draw_painted(const draw_brush *b, const draw_found *f, uint32_t bits)
 {
     lanei v = f->colour;
     if (b->texture != NULL) {
@@ -550,50 +569,138 @@ LANE_INLINE lanei draw_made(const draw_brush *b, const draw_found *f, uint32_t b
                                      : lanei_gather_rgba(b->texture->texels, f->x);
         v = b->is_white ? c : codes_times(c, v);
     }
+    return v;
+}
+
+/* Blends colours onto `was`. */
+LANE_INLINE lanei draw_mixed(const draw_brush *b, lanei v, int swaps, lanei was)
+{
     v = swaps ? draw_swap(v) : v;
     return b->meets == DRAW_MEET_OVER ? codes_over(v, was) : b->meets == DRAW_MEET_ADD ? codes_plus(v, was) : v;
 }
 
-/* Colours pixels of a tile in the usual states. */
-LANE_NOINLINE void KERNEL(draw_usual)(const lmb_draw_patch *p, uint64_t mask, int meets)
+/* Mixes colours with the fog's R G B; alpha stays. code: the share of the colours. */
+LANE_INLINE lanei draw_into_fog(lanei v, lanei code, uint32_t fog)
 {
-    const draw_brush b = draw_brush_of(p, meets);
-    const draw_axes axes = draw_axes_of(&b, p);
+    const lanei low = lanei_splat(0xffffff), alpha = lanei_mul(code, lanei_splat(1 << 24));
+    const lanei over = codes_over(lanei_or(lanei_and(v, low), alpha), lanei_splat((int32_t)fog));
+    return lanei_or(lanei_and(over, low), lanei_and(v, lanei_splat(~0xffffff)));
+}
+
+/* Values that all tiles of a shape share. */
+typedef struct draw_look {
+    draw_brush brush;
+    draw_axes axes;
+    uint32_t fog; /* R G B */
+    int fogs;
+} draw_look;
+
+LANE_INLINE draw_look draw_look_of(const lmb_draw_patch *p, int meets)
+{
+    draw_look l;
+    l.brush = draw_brush_of(p, meets);
+    l.axes = draw_axes_of(&l.brush, p);
+    l.fogs = p->state->fog != LMB_DRAW_FOG_NONE;
+    l.fog = 0;
+    for (int i = 0; i < 3; ++i) {
+        l.fog |= (uint32_t)p->state->fog_colour[i] << 8 * i;
+    }
+    return l;
+}
+
+LANE_INLINE void draw_usual_pixels(const lmb_draw_patch *p, uint64_t mask, const draw_look *l, int fogs)
+{
     for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
         const uint32_t bits = draw_bits(mask, k);
         uint8_t *at = p->colour + (ptrdiff_t)(k >> 3) * p->colour_stride + 4 * (k & 7);
         if (bits != 0) {
             const draw_share share = draw_share_at(p, k);
-            const draw_found f = draw_find(&b, &axes, p, &share);
+            const draw_found f = draw_find(&l->brush, &l->axes, p, &share);
             const lanei was = draw_load(at, p->colour_stride);
-            const lanei made = draw_made(&b, &f, bits, p->swaps, was);
+            lanei v = draw_painted(&l->brush, &f, bits);
+            if (fogs) {
+                v = draw_into_fog(v, draw_fog_code(p, &share), l->fog);
+            }
+            const lanei made = draw_mixed(&l->brush, v, p->swaps, was);
             draw_save(at, p->colour_stride, lanei_pick(mask_of_bits(bits), made, was));
         }
     }
 }
 
+/* Colours pixels of a tile in the usual states. */
+LANE_NOINLINE void KERNEL(draw_usual)(const lmb_draw_patch *p, uint64_t mask, const draw_look *l)
+{
+    draw_usual_pixels(p, mask, l, 0);
+}
+
+LANE_NOINLINE void KERNEL(draw_usual_fogged)(const lmb_draw_patch *p, uint64_t mask, const draw_look *l)
+{
+    draw_usual_pixels(p, mask, l, 1);
+}
+
+LANE_INLINE void draw_usual_tile(const lmb_draw_patch *p, uint64_t mask, const draw_look *l)
+{
+    if (l->fogs) {
+        KERNEL(draw_usual_fogged)(p, mask, l);
+    } else {
+        KERNEL(draw_usual)(p, mask, l);
+    }
+}
+
 #endif
+
+/* How a state writes colours. */
+typedef struct draw_writer {
+    lanei written; /* bits of the channels that are written */
+    int meets, keeps;
+} draw_writer;
+
+LANE_INLINE draw_writer draw_writer_of(const lmb_draw_state *s)
+{
+    uint32_t channels = 0;
+    draw_writer w;
+    for (int i = 0; i < 4; ++i) {
+        channels |= (s->colour_mask >> i & 1u) != 0 ? 0xffu << 8 * i : 0;
+    }
+    w.written = lanei_splat((int32_t)channels);
+    w.meets = draw_meets(s);
+    w.keeps = s->colour_mask != 15;
+    return w;
+}
+
+/* Writes the pixels `bits` of k, .... */
+LANE_INLINE void draw_write(const draw_writer *w, const lmb_draw_patch *p, const draw_codes *v, int k, uint32_t bits)
+{
+    uint8_t *at = p->colour + (ptrdiff_t)(k >> 3) * p->colour_stride + 4 * (k & 7);
+    lanei was = lanei_splat(0);
+    if (w->meets != DRAW_MEET_NOT || w->keeps || bits != ALL_LANES) {
+        was = draw_load(at, p->colour_stride);
+        was = p->swaps ? draw_swap(was) : was;
+    }
+    lanei made = draw_met(p->state, v, was, w->meets);
+    if (w->keeps) {
+        made = lanei_or(lanei_and(made, w->written), lanei_and(was, lanei_sub(lanei_splat(-1), w->written)));
+    }
+    made = lanei_pick(mask_of_bits(bits), made, was);
+    draw_save(at, p->colour_stride, p->swaps ? draw_swap(made) : made);
+}
 
 LANE_NOINLINE void KERNEL(draw_general)(const lmb_draw_patch *p, uint64_t mask)
 {
     const lmb_draw_state *s = p->state;
-    const int meets = draw_meets(s), keeps = s->colour_mask != 15;
+    const draw_writer writer = draw_writer_of(s);
     const int textured = s->stage[0].texture != NULL || s->stage[1].texture != NULL;
     const int needs_share = p->varies || textured || s->fog != LMB_DRAW_FOG_NONE;
     int is_white = !p->varies;
-    uint32_t channels = 0;
     draw_codes same;
     draw_share share = {lane_splat(0.0f), lane_splat(0.0f)};
     for (int i = 0; i < 4; ++i) {
         same.c[i] = draw_code(lane_splat(p->at[i]));
         is_white &= p->at[i] == 255.0f;
-        channels |= (s->colour_mask >> i & 1u) != 0 ? 0xffu << 8 * i : 0;
     }
     draw_codes v = same;
     for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
         const uint32_t bits = draw_bits(mask, k);
-        uint8_t *at = p->colour + (ptrdiff_t)(k >> 3) * p->colour_stride + 4 * (k & 7);
-        lanei was = lanei_splat(0);
         if (bits == 0) {
             continue;
         }
@@ -601,17 +708,7 @@ LANE_NOINLINE void KERNEL(draw_general)(const lmb_draw_patch *p, uint64_t mask)
             share = draw_share_at(p, k);
             v = draw_colour_of(p, &share, &same, is_white);
         }
-        if (meets != DRAW_MEET_NOT || keeps || bits != (1u << LANES) - 1u) {
-            was = draw_load(at, p->colour_stride);
-            was = p->swaps ? draw_swap(was) : was;
-        }
-        lanei made = draw_met(s, &v, was, meets);
-        if (keeps) {
-            const lanei written = lanei_splat((int32_t)channels);
-            made = lanei_or(lanei_and(made, written), lanei_and(was, lanei_sub(lanei_splat(-1), written)));
-        }
-        made = lanei_pick(mask_of_bits(bits), made, was);
-        draw_save(at, p->colour_stride, p->swaps ? draw_swap(made) : made);
+        draw_write(&writer, p, &v, k, bits);
     }
 }
 
@@ -619,9 +716,11 @@ static void KERNEL(draw_paint)(const lmb_draw_patch *p, uint64_t mask)
 {
 #if !defined(LANE_PLAIN)
     const int meets = draw_meets(p->state);
-    const int is_plain = p->state->stage[0].texture == NULL && meets == DRAW_MEET_NOT; /* one pass is faster */
+    const int is_plain = p->state->stage[0].texture == NULL && p->state->fog == LMB_DRAW_FOG_NONE &&
+                         meets == DRAW_MEET_NOT; /* one pass is faster */
     if (!is_plain && draw_is_usual(p->state, meets)) {
-        KERNEL(draw_usual)(p, mask, meets);
+        const draw_look look = draw_look_of(p, meets);
+        draw_usual_tile(p, mask, &look);
         return;
     }
 #endif
@@ -638,6 +737,78 @@ static void KERNEL(draw_shares)(float out[2][LMB_TILE_PIXELS], const lmb_draw_pa
             lane_store(&out[0][k], draw_value_at(p, 0, &share));
             lane_store(&out[1][k], draw_value_at(p, 1, &share));
         }
+    }
+}
+
+static void KERNEL(draw_steps)(float by_x[2][LMB_TILE_PIXELS], float by_y[2][LMB_TILE_PIXELS], const lmb_draw_patch *p,
+                               uint64_t mask)
+{
+    for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
+        lane x1 = lane_splat(p->n1.x), x2 = lane_splat(p->n2.x), y1 = lane_splat(p->n1.y), y2 = lane_splat(p->n2.y);
+        if (draw_bits(mask, k) == 0) {
+            continue;
+        }
+        if (!p->is_even) {
+            const lane q = draw_slope_at(&p->q, k), q_x = lane_splat(p->q.x), q_y = lane_splat(p->q.y),
+                       inverse = draw_inverse(q);
+            const draw_share s = draw_share_at(p, k);
+            x1 = lane_mul(lane_sub(x1, lane_mul(s.b1, q_x)), inverse);
+            x2 = lane_mul(lane_sub(x2, lane_mul(s.b2, q_x)), inverse);
+            y1 = lane_mul(lane_sub(y1, lane_mul(s.b1, q_y)), inverse);
+            y2 = lane_mul(lane_sub(y2, lane_mul(s.b2, q_y)), inverse);
+        }
+        for (int i = 0; i < 2; ++i) {
+            const lane more1 = lane_splat(p->more1[i]), more2 = lane_splat(p->more2[i]);
+            lane_store(&by_x[i][k], lane_add(lane_mul(x1, more1), lane_mul(x2, more2)));
+            lane_store(&by_y[i][k], lane_add(lane_mul(y1, more1), lane_mul(y2, more2)));
+        }
+    }
+}
+
+static void KERNEL(draw_dots)(lmb_draw_dots *d, const lmb_draw_patch *p, int32_t count)
+{
+    const int meets = draw_meets(p->state);
+    draw_codes v;
+    for (int i = 0; i < 4; ++i) {
+        v.c[i] = lanei_splat((int32_t)p->at[i]);
+    }
+    for (int32_t k = 0; k < count; k += LANES) {
+        const lane x = lane_from_int(lanei_load(&d->column[k])), y = lane_from_int(lanei_load(&d->row[k]));
+        if (p->varies) {
+            draw_share s = {lane_add(lane_load(&d->n1[k]), lane_mul(lane_splat(p->n1.y), y)), lane_splat(0.0f)};
+            s.b1 = lane_add(s.b1, lane_mul(lane_splat(p->n1.x), x));
+            if (!p->is_even) {
+                const lane q = lane_add(lane_load(&d->q[k]), lane_mul(lane_splat(p->q.y), y));
+                draw_even_out(&s, lane_add(q, lane_mul(lane_splat(p->q.x), x)));
+            }
+            s = draw_hold_share(s);
+            for (int i = 0; i < 4; ++i) {
+                v.c[i] = draw_code(draw_value_at(p, i, &s));
+            }
+        }
+        const lanei made = draw_join(&v), code = p->swaps ? draw_swap(made) : made, was = lanei_load(&d->codes[k]);
+        lanei_store(&d->codes[k], meets == DRAW_MEET_OVER  ? codes_over(code, was)
+                                  : meets == DRAW_MEET_ADD ? codes_plus(code, was)
+                                                           : code);
+    }
+}
+
+static void KERNEL(draw_put)(const lmb_draw_put *to, const uint8_t (*codes)[4], uint64_t mask)
+{
+    const int meets = draw_meets(to->state);
+    for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
+        const uint32_t bits = draw_bits(mask, k);
+        uint8_t *at = to->colour + (ptrdiff_t)(k >> 3) * to->stride + 4 * (k & 7);
+        if (bits == 0) {
+            continue;
+        }
+        int32_t of[LANES];
+        memcpy(of, codes + k, sizeof of);
+        const lanei was = draw_load(at, to->stride), code = lanei_load(of), v = to->swaps ? draw_swap(code) : code;
+        const lanei made = meets == DRAW_MEET_OVER  ? codes_over(v, was)
+                           : meets == DRAW_MEET_ADD ? codes_plus(v, was)
+                                                    : v;
+        draw_save(at, to->stride, lanei_pick(mask_of_bits(bits), made, was));
     }
 }
 
@@ -805,7 +976,8 @@ LANE_NOINLINE void KERNEL(sheet_draw)(const lmb_draw_sheet *s, const draw_brush 
         const uint32_t drawn = parts.drawn[k];
         const draw_found f = {lanei_load(parts.x[k]), b->is_smooth ? lanei_load(parts.y[k]) : b->same,
                               b->varies ? lanei_load(parts.colour[k]) : b->same};
-        sheet_save(at, stride, drawn, draw_made(b, &f, drawn, swaps, sheet_load(at, stride, drawn)));
+        const lanei was = sheet_load(at, stride, drawn); /* before the texels, which take longer */
+        sheet_save(at, stride, drawn, draw_mixed(b, draw_painted(b, &f, drawn), swaps, was));
     }
 }
 

@@ -194,6 +194,11 @@ static void list_triangle(const lmb_draw_pass *pass, uint32_t a, uint32_t b, uin
 
 static void list_line(const lmb_draw_pass *pass, uint32_t a, uint32_t b)
 {
+#if LMB_DRAW_LANES
+    if ((pass->draws & DRAW_LINES) != 0 && lmb_draw_quick_line(pass, a, b)) {
+        return;
+    }
+#endif
     list_draw(pass, a, b, b, b, 2, 0);
 }
 
@@ -381,6 +386,11 @@ lmb_status lmb_draw_list(const lmb_draw_target *target, const lmb_draw_state *st
     if (DRAW_FULL && primitive < LMB_DRAW_LINES) {
         lmb_draw_quick_begin(&pass, few);
     }
+#if LMB_DRAW_LANES
+    if (primitive >= LMB_DRAW_LINES && primitive <= LMB_DRAW_LINE_LOOP) {
+        lmb_draw_lines_begin(&pass);
+    }
+#endif
     const uint32_t count = indices != NULL ? indices->count : vertices->count;
     if (DRAW_FULL && primitive == LMB_DRAW_POINTS) {
         list_points(&pass, count);

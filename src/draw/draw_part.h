@@ -73,7 +73,8 @@ typedef struct lmb_draw_pass {
     int32_t fills;                   /* upright rectangles that need no triangles: DRAW_FILLS_COLOUR, ... */
     struct draw_vertex *few;         /* DRAW_FEW corners of triangles; NULL: all take the general path */
     int32_t fog_is_w;              /* 1: the fog distance is the w of clip space */
-    int32_t draws;                 /* kernels draw whole triangles: DRAW_AREAS; small ones in batches: DRAW_SMALLS */
+    int32_t draws;                 /* kernels draw whole triangles: DRAW_AREAS; small ones in batches: DRAW_SMALLS;
+                                      lines: DRAW_LINES */
     draw_primitive *now;
     lmb_stats *stats;
 } lmb_draw_pass;
@@ -127,7 +128,7 @@ typedef struct draw_vertex {
     int32_t x, y;       /* 24.8 from the viewport's centre */
     float d, inverse;   /* 1 / w */
 } draw_vertex;
-enum { DRAW_AREAS = 1, DRAW_SMALLS = 2 };
+enum { DRAW_AREAS = 1, DRAW_SMALLS = 2, DRAW_LINES = 4 };
 enum { DRAW_FILLS_COLOUR = 1 /* of one colour */, DRAW_FILLS_SHEET = 2 /* any, with the state's kernels */ };
 enum { DRAW_FEW = 4 /* for quads and strips */, DRAW_DROPPED = 256 };
 
@@ -174,13 +175,29 @@ uint32_t lmb_draw_quick_run(const lmb_draw_pass *pass, uint32_t i, uint32_t coun
 int lmb_draw_quick_rectangle(const lmb_draw_pass *pass, const uint32_t at[4], uint32_t flat);
 void lmb_draw_finish(const lmb_draw_pass *pass, lmb_draw_shape *shape);
 
+/* place: sets a corner; `out` is 0 if it needs no cutting. find_fog: sets pass->fog_is_w. */
+void lmb_draw_place(draw_vertex *out, const lmb_draw_pass *pass, uint32_t i);
+void lmb_draw_find_fog(lmb_draw_pass *pass);
+
+/* draw_line.c, after lmb_draw_rows_begin. begin: sets DRAW_LINES. quick_line: draws a line between places in the list;
+ * returns 0 if it needs the general path. */
+void lmb_draw_lines_begin(lmb_draw_pass *pass);
+int lmb_draw_quick_line(const lmb_draw_pass *pass, uint32_t a, uint32_t b);
+
+/* draw_stencil.c, if lmb_draw_rows_stencils: the pixels of the mask that pass stencil and depth test, both updated. */
+uint64_t lmb_draw_stencil(const tile_job *job, uint64_t mask);
+int lmb_draw_rows_stencils(const tile_job *job);
+
 /* draw_rows.c: common states, row by row. begin: selects them. tests: returns the pixels of the mask that pass, and
  * stores their depths. paints: colours pixels. */
 void lmb_draw_rows_begin(lmb_draw_pass *pass);
 uint64_t lmb_draw_rows_test(const tile_job *job, uint64_t mask);
 void lmb_draw_rows_paint(const tile_job *job, uint64_t mask);
 int lmb_draw_lanes_paint(const tile_job *job, uint64_t mask); /* with the state's kernels; 0: they cannot */
+int lmb_draw_lanes_put(const tile_job *job, const uint8_t (*codes)[4], uint64_t mask); /* colours of pixels; the same */
 int lmb_draw_lanes_shares(float out[2][LMB_TILE_PIXELS], const tile_job *job, uint64_t mask); /* the same */
+int lmb_draw_lanes_steps(float by_x[2][LMB_TILE_PIXELS], float by_y[2][LMB_TILE_PIXELS], const tile_job *job,
+                         uint64_t mask); /* the same */
 
 /* An edge's value at pixel (0, 0) of the frame, and per px. Pixels are inside where it is not negative. */
 typedef struct draw_edge {

@@ -17,19 +17,24 @@ enum { QUICK_AHEAD = 24 /* indices */, QUICK_KNOWN = 16 /* more take too much st
 #define QUICK_ABSURD  1e30f
 #define QUICK_LEAST_W 1e-12f /* as in draw_cut.c */
 
+void lmb_draw_find_fog(lmb_draw_pass *pass)
+{
+    const float *axis = pass->state->fog_axis, *m = pass->state->to_clip.m;
+    const int has_axis = axis[0] != 0.0f || axis[1] != 0.0f || axis[2] != 0.0f || axis[3] != 0.0f;
+    pass->fog_is_w = !has_axis || (axis[0] == m[3] && axis[1] == m[7] && axis[2] == m[11] && axis[3] == m[15]);
+}
+
 void lmb_draw_quick_begin(lmb_draw_pass *pass, draw_vertex few[DRAW_FEW])
 {
     const lmb_draw_state *s = pass->state;
     const lmb_draw_vertices *v = pass->vertices;
-    const float *axis = s->fog_axis, *m = s->to_clip.m;
-    const int has_axis = axis[0] != 0.0f || axis[1] != 0.0f || axis[2] != 0.0f || axis[3] != 0.0f;
     if ((v->position_format != LMB_DRAW_F32 && v->position_format != LMB_DRAW_F32X4) || v->uv_format != LMB_DRAW_F32 ||
         s->planes != 0 || s->offset_slope != 0.0f || s->offset_units != 0.0f || s->polygon_mode[0] != LMB_DRAW_FILL ||
         s->polygon_mode[1] != LMB_DRAW_FILL || v->fogs != NULL || v->seconds != NULL || v->back_colours != NULL ||
         v->back_seconds != NULL || s->shader != NULL || s->passed != NULL) {
         return;
     }
-    pass->fog_is_w = !has_axis || (axis[0] == m[3] && axis[1] == m[7] && axis[2] == m[11] && axis[3] == m[15]);
+    lmb_draw_find_fog(pass);
     for (int i = 0; i < DRAW_FEW; ++i) {
         few[i].name = 0;
     }
@@ -105,6 +110,8 @@ NOINLINE void quick_renew(draw_vertex *at, const lmb_draw_pass *pass, uint32_t i
         }
     }
 }
+
+void lmb_draw_place(draw_vertex *out, const lmb_draw_pass *pass, uint32_t i) { quick_renew(out, pass, i); }
 
 /* Vertex i, from the cache if possible. Texture coordinates must be valid too. */
 static inline draw_vertex quick_corner(draw_vertex *known, uint32_t count, const lmb_draw_pass *pass, uint32_t i)

@@ -65,19 +65,29 @@ static int rows_lanes_sample(const lmb_draw_state *s)
     return good;
 }
 
-/* 1: a kernel draws whole triangles: without texture and fog, in common states. */
+/* 1: a kernel knows how this state colours: at most one texture, which replaces or modulates; opaque or blended by
+ * alpha. */
+static int rows_are_usual(const lmb_draw_pass *pass)
+{
+    const lmb_draw_stage *stage = pass->state->stage;
+    return pass->paints_lanes && rows_blend(pass->state) != ROWS_NOT && stage[1].texture == NULL &&
+           (stage[0].texture == NULL || stage[0].mode == LMB_DRAW_MODULATE || stage[0].mode == LMB_DRAW_REPLACE);
+}
+
+/* 1: a kernel draws whole triangles. */
 static int rows_draw_areas(const lmb_draw_pass *pass)
 {
-    return pass->paints_lanes && pass->state->kernels->draw_area != NULL && pass->paints_rows != ROWS_NOT &&
-           pass->state->stage[0].texture == NULL && pass->state->area_pattern == NULL &&
+    return rows_are_usual(pass) && pass->state->kernels->draw_area != NULL && pass->state->area_pattern == NULL &&
            (!pass->tests || (pass->tests_rows && pass->target->depth.layout == LMB_LINEAR));
 }
 
-/* 1: a kernel draws small triangles in batches. It reads and writes rows of eight pixels inside the pass's tiles. */
+/* 1: a kernel draws small triangles in batches, without texture and fog. It reads and writes rows of eight pixels
+ * inside the pass's tiles. */
 static int rows_draw_small(const lmb_draw_pass *pass)
 {
     const lmb_draw_target *t = pass->target;
-    return pass->draws != 0 && pass->state->kernels->draw_small != NULL &&
+    return pass->draws != 0 && pass->state->kernels->draw_small != NULL && pass->state->stage[0].texture == NULL &&
+           pass->state->fog == LMB_DRAW_FOG_NONE &&
            mini(pass->x1 | 7, t->x0 + t->colour.width - 1) - maxi(pass->x0 & ~7, t->x0) >= 7 &&
            pass->vertices->count < (uint32_t)1 << 28; /* indices of floats fit 32 bits */
 }
@@ -85,11 +95,7 @@ static int rows_draw_small(const lmb_draw_pass *pass)
 /* 1: a kernel colours both triangles of upright rectangles. */
 static int rows_fills_sheet(const lmb_draw_pass *pass)
 {
-    const lmb_draw_state *s = pass->state;
-    return pass->paints_lanes && s->kernels->draw_sheet != NULL && rows_blend(s) != ROWS_NOT &&
-           s->fog == LMB_DRAW_FOG_NONE && s->stage[1].texture == NULL &&
-           (s->stage[0].texture == NULL || s->stage[0].mode == LMB_DRAW_MODULATE ||
-            s->stage[0].mode == LMB_DRAW_REPLACE);
+    return rows_are_usual(pass) && pass->state->kernels->draw_sheet != NULL && pass->state->fog == LMB_DRAW_FOG_NONE;
 }
 #endif
 
@@ -106,7 +112,7 @@ void lmb_draw_rows_begin(lmb_draw_pass *pass)
     pass->draws = 0;
 #if LMB_DRAW_LANES
     pass->paints_lanes =
-        s->kernels != NULL && paints && rows_are_little() && s->fog <= LMB_DRAW_FOG_LINEAR && rows_lanes_sample(s);
+        s->kernels != NULL && paints && rows_are_little() && rows_lanes_sample(s);
     pass->draws |= rows_draw_areas(pass) ? DRAW_AREAS : 0;
     pass->draws |= rows_draw_small(pass) ? DRAW_SMALLS : 0;
     sheets = rows_fills_sheet(pass) ? DRAW_FILLS_SHEET : 0;
@@ -129,6 +135,13 @@ static int rows_are_whole(const tile_job *j)
     const lmb_draw_target *t = j->pass->target;
     const lmb_surface *s = t->colour.data != NULL ? &t->colour : &t->depth;
     return j->x - t->x0 + LMB_TILE <= s->width && j->y - t->y0 + LMB_TILE <= s->height;
+}
+
+int lmb_draw_rows_stencils(const tile_job *j)
+{
+    const lmb_draw_state *s = j->pass->state;
+    return (s->flags & LMB_DRAW_STENCIL) != 0 && s->kernels != NULL && rows_are_little() && rows_are_whole(j) &&
+           ((s->flags & LMB_DRAW_DEPTH_TEST) == 0 || j->pass->target->depth.format == LMB_DEPTH32F);
 }
 
 static int rows_are_few(uint64_t mask, int few)
@@ -166,11 +179,17 @@ static void rows_lanes_value(lmb_draw_patch *p, const lmb_draw_shape *s, int i, 
     p->more2[i] = s->corner[2]->v[from] - p->at[i];
 }
 
+static uint8_t *rows_pixel(const lmb_draw_pass *pass, int32_t x, int32_t y)
+{
+    const lmb_surface *to = &pass->target->colour;
+    return (uint8_t *)to->data + (ptrdiff_t)(y - pass->target->y0) * to->stride_bytes +
+           (ptrdiff_t)(x - pass->target->x0) * 4;
+}
+
 /* All but the slopes. */
 static void rows_lanes_set(lmb_draw_patch *p, const lmb_draw_pass *pass, const lmb_draw_shape *shape, int32_t x,
                            int32_t y)
 {
-    const lmb_surface *to = &pass->target->colour;
     p->state = pass->state;
     p->varies = 0;
     for (int i = 0; i < 4; ++i) {
@@ -186,10 +205,9 @@ static void rows_lanes_set(lmb_draw_patch *p, const lmb_draw_pass *pass, const l
         rows_lanes_value(p, shape, LMB_DRAW_VALUES - 1, CORNER_FOG);
     }
     p->is_even = shape->is_even;
-    p->swaps = to->format == LMB_BGRA8;
-    p->colour = (uint8_t *)to->data + (ptrdiff_t)(y - pass->target->y0) * to->stride_bytes +
-                (ptrdiff_t)(x - pass->target->x0) * 4;
-    p->colour_stride = to->stride_bytes;
+    p->swaps = pass->target->colour.format == LMB_BGRA8;
+    p->colour = rows_pixel(pass, x, y);
+    p->colour_stride = pass->target->colour.stride_bytes;
 }
 
 static void rows_lanes_paint(const tile_job *j, uint64_t mask)
@@ -214,24 +232,57 @@ int lmb_draw_lanes_paint(const tile_job *j, uint64_t mask)
     return 1;
 }
 
-int lmb_draw_lanes_shares(float out[2][LMB_TILE_PIXELS], const tile_job *j, uint64_t mask)
+int lmb_draw_lanes_put(const tile_job *j, const uint8_t (*codes)[4], uint64_t mask)
 {
-    const lmb_kernels *kernels = j->pass->state->kernels;
+    const lmb_draw_state *s = j->pass->state;
+    const lmb_surface *to = &j->pass->target->colour;
+    if (s->kernels == NULL || s->kernels->draw_put == NULL || !rows_are_wide(j->pass->target) || !rows_are_little() ||
+        rows_blend(s) == ROWS_NOT || !rows_are_whole(j)) {
+        return 0;
+    }
+    const lmb_draw_put p = {s, rows_pixel(j->pass, j->x, j->y), to->stride_bytes, to->format == LMB_BGRA8};
+    s->kernels->draw_put(&p, codes, mask);
+    return 1;
+}
+
+/* Sets a patch for the shares of the primitive's vertices. Returns 0 if the kernels cannot. */
+static int rows_set_shares(lmb_draw_patch *p, const tile_job *j)
+{
     const lmb_draw_shape *s = j->shape;
-    lmb_draw_patch p;
+    const lmb_kernels *kernels = j->pass->state->kernels;
     if (kernels == NULL || kernels->draw_shares == NULL || s->corners == 1 || s->is_cut) {
         return 0;
     }
-    rows_lanes_value(&p, s, 0, CORNER_SHARE);
-    rows_lanes_value(&p, s, 1, CORNER_SHARE + 1);
-    p.is_even = s->is_even;
-    p.n1 = rows_slope(&j->n1);
-    p.n2 = rows_slope(&j->n2);
-    if (!p.is_even) {
-        p.q = rows_slope(&j->q);
+    rows_lanes_value(p, s, 0, CORNER_SHARE);
+    rows_lanes_value(p, s, 1, CORNER_SHARE + 1);
+    p->is_even = s->is_even;
+    p->n1 = rows_slope(&j->n1);
+    p->n2 = rows_slope(&j->n2);
+    if (!p->is_even) {
+        p->q = rows_slope(&j->q);
     }
-    kernels->draw_shares(out, &p, mask);
     return 1;
+}
+
+int lmb_draw_lanes_shares(float out[2][LMB_TILE_PIXELS], const tile_job *j, uint64_t mask)
+{
+    lmb_draw_patch p;
+    const int good = rows_set_shares(&p, j);
+    if (good) {
+        j->pass->state->kernels->draw_shares(out, &p, mask);
+    }
+    return good;
+}
+
+int lmb_draw_lanes_steps(float by_x[2][LMB_TILE_PIXELS], float by_y[2][LMB_TILE_PIXELS], const tile_job *j,
+                         uint64_t mask)
+{
+    lmb_draw_patch p;
+    const int good = rows_set_shares(&p, j);
+    if (good) {
+        j->pass->state->kernels->draw_steps(by_x, by_y, &p, mask);
+    }
+    return good;
 }
 
 static void rows_set_steps(lmb_draw_slope *slope, const lmb_draw_plane *p)

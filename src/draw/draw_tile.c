@@ -336,6 +336,28 @@ void lmb_draw_shares(float out[2][LMB_TILE_PIXELS], const lmb_draw_pixels_of *pi
     }
 }
 
+void lmb_draw_steps(float by_x[2][LMB_TILE_PIXELS], float by_y[2][LMB_TILE_PIXELS], const lmb_draw_pixels_of *pixels)
+{
+    const tile_job *j = pixels != NULL ? (const tile_job *)pixels->job : NULL;
+    if (j == NULL || by_x == NULL || by_y == NULL) {
+        return;
+    }
+#if LMB_DRAW_LANES
+    if (lmb_draw_lanes_steps(by_x, by_y, j, pixels->mask)) {
+        return;
+    }
+#endif
+    for (uint64_t bits = pixels->mask; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        lmb_draw_fragment_at at;
+        lmb_draw_fragment(&at, pixels, k);
+        for (int i = 0; i < 2; ++i) {
+            by_x[i][k] = at.by_x[i];
+            by_y[i][k] = at.by_y[i];
+        }
+    }
+}
+
 /* The same for pixels that the caller's shader colours. */
 static uint64_t tile_shade(uint8_t colour[LMB_TILE_PIXELS][4], const tile_job *j, uint64_t mask)
 {
@@ -533,6 +555,11 @@ NOINLINE void tile_draw_tested(const tile_job *j, uint64_t mask)
         mask = tile_tests(j, mask);
     }
     tile_count(j->pass, mask);
+#if LMB_DRAW_LANES
+    if (j->pass->shows && lmb_draw_lanes_put(j, (const uint8_t(*)[4])colour, mask)) {
+        return;
+    }
+#endif
     if (DRAW_FULL && j->pass->shows && tile_is_copied(j->pass)) {
         tile_store_all(j, mask, colour);
         return;
@@ -541,6 +568,17 @@ NOINLINE void tile_draw_tested(const tile_job *j, uint64_t mask)
         const int k = lowest_bit_64(bits);
         tile_store(j, k, colour[k]);
     }
+}
+
+/* Tests before colours. Tests after colours take too much stack with lmb_draw_stencil. */
+static inline uint64_t tile_test_all(const tile_job *j, uint64_t mask)
+{
+#if LMB_DRAW_LANES
+    if (lmb_draw_rows_stencils(j)) {
+        return lmb_draw_stencil(j, mask);
+    }
+#endif
+    return DRAW_FULL && j->pass->tests_rows ? lmb_draw_rows_test(j, mask) : tile_tests(j, mask);
 }
 
 void lmb_draw_tile(const lmb_draw_pass *pass, lmb_draw_shape *shape, int32_t x, int32_t y, uint64_t mask)
@@ -565,7 +603,7 @@ void lmb_draw_tile(const lmb_draw_pass *pass, lmb_draw_shape *shape, int32_t x, 
         j.d = tile_set(&shape->d, at_x, at_y);
     }
     if (!pass->paints_first) {
-        mask = DRAW_FULL && pass->tests_rows ? lmb_draw_rows_test(&j, mask) : tile_tests(&j, mask);
+        mask = tile_test_all(&j, mask);
     }
     if (mask == 0 || (!pass->shows && !pass->paints_first)) {
         tile_count(pass, mask);

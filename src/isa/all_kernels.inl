@@ -177,6 +177,9 @@ const lmb_kernels KERNEL(lmb_kernels) = {
     NULL,
     NULL,
     NULL,
+    NULL,
+    NULL,
+    NULL,
 #else
     KERNEL(draw_sheet),
     KERNEL(draw_area),
@@ -188,6 +191,9 @@ const lmb_kernels KERNEL(lmb_kernels) = {
     NULL,
 #endif
     KERNEL(draw_shares),
+    KERNEL(draw_steps),
+    KERNEL(draw_dots),
+    KERNEL(draw_put),
 #endif
     KERNEL(draw_fill),
 #endif

@@ -167,6 +167,21 @@ typedef struct lmb_draw_sheet {
     uint8_t *colour;        /* pixel 0 */
 } lmb_draw_sheet;
 
+/* Pixels of a tile that lies entirely in the target. */
+typedef struct lmb_draw_put {
+    const lmb_draw_state *state;
+    uint8_t *colour; /* pixel 0; rows are `stride` bytes apart */
+    int32_t stride, swaps; /* swaps: blue is the first byte in memory */
+} lmb_draw_put;
+
+/* Pixels of a line: n1 and q at the first pixel of each pixel's tile; columns and rows in the tiles. */
+enum { LMB_DRAW_DOTS = 32 };
+typedef struct lmb_draw_dots {
+    float n1[LMB_DRAW_DOTS], q[LMB_DRAW_DOTS];
+    int32_t column[LMB_DRAW_DOTS], row[LMB_DRAW_DOTS];
+    int32_t codes[LMB_DRAW_DOTS]; /* of the target, before and after */
+} lmb_draw_dots;
+
 /* A triangle in tiles that lie entirely in the target. Distances count from pixel 0 of the first tile. */
 typedef struct lmb_draw_area {
     lmb_draw_patch pixels;          /* without values at pixel 0; plane: d, n1, n2 and q */
@@ -764,12 +779,19 @@ struct lmb_kernels {
     void (*draw_paint)(const lmb_draw_patch *pixels, uint64_t mask);
     /* Colours all pixels of the sheet, without fog and with at most one texture; changes its halves. Plain C: NULL. */
     void (*draw_sheet)(lmb_draw_sheet *sheet);
-    /* Draws the pixels of a triangle; changes `pixels`. Plain C: NULL. */
+    /* Draws the pixels of a triangle with at most one texture; changes `pixels`. Plain C: NULL. */
     void (*draw_area)(lmb_draw_area *area);
     /* Draws triangles up to the first that needs another path. Returns that, or the count. Plain C: NULL. */
     uint32_t (*draw_small)(lmb_draw_small *inout);
     /* Values 0 and 1 of the pixels of `mask`, and any values of others. Plain C: NULL. */
     void (*draw_shares)(float out[2][LMB_TILE_PIXELS], const lmb_draw_patch *pixels, uint64_t mask);
+    /* Changes of the same values per px. Plain C: NULL. */
+    void (*draw_steps)(float by_x[2][LMB_TILE_PIXELS], float by_y[2][LMB_TILE_PIXELS], const lmb_draw_patch *pixels,
+                       uint64_t mask);
+    /* Colours `count` pixels of a line without texture and fog, opaque or blended by alpha. Plain C: NULL. */
+    void (*draw_dots)(lmb_draw_dots *inout, const lmb_draw_patch *pixels, int32_t count);
+    /* Writes codes R G B A of the pixels of `mask`, opaque or blended by alpha. Plain C: NULL. */
+    void (*draw_put)(const lmb_draw_put *to, const uint8_t (*codes)[4], uint64_t mask);
     /* Blends R G B A, in the order of the pixels' bytes, onto rows `stride` bytes apart: over them by the share
      * A, or added. */
     void (*draw_fill)(uint8_t *row, int32_t stride, int32_t width, int32_t height, uint32_t codes, int adds);

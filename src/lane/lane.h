@@ -307,6 +307,59 @@ static inline void sums_add_directed(lane_sums s[3], uint16_t (*row)[4], const u
 }
 #endif
 
+/* The bits of values, and values of bits. */
+static inline lanei lanei_bits_of(lane a)
+{
+    float v[LANES];
+    int32_t bits[LANES];
+    lane_store(v, a);
+    memcpy(bits, v, sizeof bits);
+    return lanei_load(bits);
+}
+
+static inline lane lane_of_bits(lanei a)
+{
+    float v[LANES];
+    int32_t bits[LANES];
+    lanei_store(bits, a);
+    memcpy(v, bits, sizeof v);
+    return lane_load(v);
+}
+
+/* floorf within the int32 range. */
+static inline lane lane_floor(lane a)
+{
+    const lane whole = lane_trunc(a);
+    return lane_sub(whole, lane_keep(lane_lt(a, whole), lane_splat(1.0f)));
+}
+
+/* a + b c */
+static inline lane lane_more(float a, lane b, lane c) { return lane_add(lane_splat(a), lane_mul(b, c)); }
+
+/* lmb_exp2 */
+static inline lane lane_exp2(lane a)
+{
+    const lane x = lane_min(lane_max(a, lane_splat(-126.0f)), lane_splat(127.99f));
+    const lane k = lane_floor(lane_add(x, lane_splat(0.5f))), f = lane_sub(x, k);
+    lane p = lane_more(0x1.5f0946p-10f, f, lane_splat(0x1.417a5cp-13f));
+    p = lane_more(0x1.c6af7ap-5f, f, lane_more(0x1.3b2dd2p-7f, f, p));
+    p = lane_more(1.0f, f, lane_more(0x1.62e43p-1f, f, lane_more(0x1.ebfbdcp-3f, f, p)));
+    return lane_of_bits(lanei_add(lanei_bits_of(p), lanei_mul(lane_to_int(k), lanei_splat(0x800000))));
+}
+
+/* lmb_log2 */
+static inline lane lane_log2(lane a)
+{
+    const lanei u = lanei_bits_of(lane_max(a, lane_splat(0x1p-126f)));
+    const lanei e = lanei_shift(lanei_sub(u, lanei_splat(0x3f3504f3)), 23);
+    const lane f = lane_sub(lane_of_bits(lanei_sub(u, lanei_mul(e, lanei_splat(0x800000)))), lane_splat(1.0f));
+    const lane s = lane_div(f, lane_add(lane_splat(2.0f), f)), z = lane_mul(s, s);
+    const lane l = lane_more(0x1.55557ap-1f, z, lane_more(0x1.995ed8p-2f, z, lane_splat(0x1.31e03cp-2f)));
+    const lane q = lane_mul(s, lane_sub(f, lane_mul(z, l)));
+    const lane rest = lane_sub(lane_mul(lane_splat(0x1.c551dap-2f), lane_sub(f, q)), q);
+    return lane_add(lane_from_int(e), lane_add(f, rest));
+}
+
 typedef struct lane3 {
     lane x, y, z;
 } lane3;

@@ -335,15 +335,16 @@ static void fill_draw_target(void *out, int how)
 
 static uint64_t fill_shade(void *user, const lmb_draw_pixels_of *pixels, uint8_t colour[64][4])
 {
-    float share[2][64];
+    float share[2][64], by_x[2][64], by_y[2][64];
     (void)user;
     lmb_draw_shares(share, pixels);
+    lmb_draw_steps(by_x, by_y, pixels);
     for (int k = 0; k < 64; ++k) {
         lmb_draw_fragment_at at;
         lmb_draw_fragment(&at, pixels, k);
         colour[k][0] = colour[k][3] = (uint8_t)(at.share[0] > 0.5f ? k : 255);
         colour[k][1] = (uint8_t)pixels->vertex[1];
-        colour[k][2] = (uint8_t)((pixels->mask >> k & 1) != 0 && share[1][k] > 0.5f);
+        colour[k][2] = (uint8_t)((pixels->mask >> k & 1) != 0 && share[1][k] > by_x[0][k] + by_y[1][k]);
     }
     return pixels->mask & UINT64_C(0xff7fffffffffff5f);
 }

@@ -143,6 +143,13 @@ static void make_state(lists *l, test_rng *r)
     s->fog_colour[0] = 190;
     s->offset_slope = any(r, 5) ? 0.0f : 1.5f;
     s->depth_range[0] = any(r, 5) ? 0.0f : 0.2f;
+    s->flags |= any(r, 5) ? 0u : LMB_DRAW_STENCIL;
+    s->stencil_func = (uint8_t)any(r, 8), s->stencil_value = (uint8_t)any(r, 256);
+    s->stencil_mask = (uint8_t)(any(r, 2) ? 255 : any(r, 256));
+    s->stencil_write = (uint8_t)(any(r, 2) ? 255 : any(r, 256));
+    for (int i = 0; i < 3; ++i) {
+        s->stencil_op[i] = (uint8_t)any(r, 8);
+    }
     s->line_px = (uint8_t)(1 + any(r, 3)), s->point_px = (uint8_t)(1 + any(r, 9));
     make_blending(s, r);
     make_textures(l, r);
@@ -184,18 +191,21 @@ static void make_sheets(lists *l, test_rng *r)
     }
 }
 
-/* Triangles of one to some hundred pixels without indices, in the states that kernels draw in batches or whole, in any
- * window. */
+/* Triangles of one to some hundred pixels without indices, in the states that kernels draw in batches or whole, some
+ * with a texture or fog, in any window. */
 static void make_streams(lists *l, test_rng *r)
 {
     static const float sizes[4] = {0.05f, 0.15f, 0.4f, 2.0f};
     lmb_draw_state *s = &l->state;
-    s->flags &= ~(uint32_t)(LMB_DRAW_LOGIC | LMB_DRAW_ALPHA_TEST);
+    s->flags &= ~(uint32_t)(LMB_DRAW_LOGIC | LMB_DRAW_ALPHA_TEST | LMB_DRAW_STENCIL);
     s->flags |= LMB_DRAW_SCISSOR;
-    s->fog = LMB_DRAW_FOG_NONE;
+    s->fog = (uint8_t)(any(r, 2) ? any(r, 4) : LMB_DRAW_FOG_NONE);
     s->colour_mask = 15;
     s->offset_slope = any(r, 4) ? 0.0f : 1.5f;
-    s->stage[0].texture = s->stage[1].texture = NULL;
+    s->stage[0].texture = any(r, 2) ? &l->texture[0] : NULL;
+    s->stage[0].mode = (uint8_t)any(r, 2);
+    l->texture[0].filter = (uint8_t)any(r, 2);
+    s->stage[1].texture = NULL;
     s->blend_source[0] = s->blend_source[1] = LMB_DRAW_SOURCE_ALPHA;
     s->blend_target[0] = s->blend_target[1] = any(r, 2) ? LMB_DRAW_ONE : LMB_DRAW_INVERSE_SOURCE_ALPHA;
     s->blend_equation[0] = s->blend_equation[1] = LMB_DRAW_ADD;
@@ -221,6 +231,36 @@ static void make_streams(lists *l, test_rng *r)
     make_homogeneous(l, r);
 }
 
+/* Lines of one pixel in the states of draw_line.c: in perspective, or on a grid of quarters of pixels, so that they also
+ * end on the edges of diamonds, and pass through corners of pixels. */
+static void make_lines(lists *l, test_rng *r)
+{
+    lmb_draw_state *s = &l->state;
+    s->flags &= LMB_DRAW_DEPTH_TEST | LMB_DRAW_DEPTH_WRITE | LMB_DRAW_BLEND | LMB_DRAW_FLAT | LMB_DRAW_SCISSOR;
+    s->fog = LMB_DRAW_FOG_NONE;
+    s->colour_mask = 15;
+    s->stage[0].texture = s->stage[1].texture = NULL;
+    s->line_px = 1;
+    l->primitive = LMB_DRAW_LINES + (int32_t)any(r, 3);
+    l->format = any(r, 2) ? LMB_RGBA8 : LMB_BGRA8;
+    l->depth_layout = any(r, 4) ? LMB_LINEAR : LMB_TILED;
+    if (any(r, 4) == 0) {
+        return;
+    }
+    (void)lmb_draw_pixels(s);
+    l->vertices.positions = l->positions;
+    l->vertices.position_format = LMB_DRAW_F32;
+    for (int i = 0; i < VERTICES; ++i) {
+        const int is_near = (i & 1) != 0 && any(r, 4) != 0;
+        for (int k = 0; k < 2; ++k) {
+            const uint32_t side = k == 0 ? WIDE : HIGH;
+            l->positions[i][k] = is_near ? l->positions[i - 1][k] + 0.25f * (float)any(r, 80) - 10.0f
+                                         : 0.25f * (float)any(r, 4 * side + 40) - 5.0f;
+        }
+        l->positions[i][2] = any(r, 3) ? test_uniform(r, 0.0f, 1.0f) : 0.5f;
+    }
+}
+
 static void make_lists(lists *l, test_rng *r)
 {
     memset(l, 0, sizeof *l);
@@ -241,6 +281,8 @@ static void make_lists(lists *l, test_rng *r)
         make_sheets(l, r);
     } else if (any(r, 2) == 0) {
         make_streams(l, r);
+    } else if (any(r, 3) == 0) {
+        make_lines(l, r);
     }
 }
 
@@ -256,6 +298,7 @@ static void draw_lists(canvas *out, const lists *l, const lmb_kernels *kernels, 
     memset(&t, 0, sizeof t);
     for (int i = 0; i < WIDE * HIGH; ++i) {
         out->colour[i] = l->colour_before * (uint32_t)(i + 1);
+        out->stencil[i] = (uint8_t)(out->colour[i] >> 24);
     }
     CHECK(lmb_surface_init(&t.colour, l->format, WIDE, HIGH, out->colour, sizeof out->colour) == LMB_OK);
     CHECK(lmb_surface_init(&t.depth, LMB_DEPTH32F, WIDE, HIGH, out->depth, sizeof out->depth) == LMB_OK);
@@ -272,7 +315,11 @@ static void draw_lists(canvas *out, const lists *l, const lmb_kernels *kernels, 
     s.kernels = kernels;
     if (plainly) {
         v.seconds = &none[0][0];
+    }
+    if (plainly && (s.flags & LMB_DRAW_STENCIL) == 0) {
         s.flags |= LMB_DRAW_STENCIL;
+        s.stencil_func = LMB_DRAW_ALWAYS;
+        s.stencil_op[0] = s.stencil_op[1] = s.stencil_op[2] = LMB_DRAW_KEEP;
     }
     CHECK(lmb_draw_list(&t, &s, &v, l->primitive, l->has_indices ? &indices : NULL, &out->stats) == LMB_OK);
 }
@@ -280,6 +327,7 @@ static void draw_lists(canvas *out, const lists *l, const lmb_kernels *kernels, 
 static int same_canvas(const canvas *a, const canvas *b)
 {
     return memcmp(a->colour, b->colour, sizeof a->colour) == 0 && memcmp(a->depth, b->depth, sizeof a->depth) == 0 &&
+           memcmp(a->stencil, b->stencil, sizeof a->stencil) == 0 &&
            a->stats.triangles == b->stats.triangles && a->stats.triangles_drawn == b->stats.triangles_drawn &&
            a->stats.triangles_dropped == b->stats.triangles_dropped;
 }
@@ -291,11 +339,12 @@ enum { AREA_WIDE = 128, AREA_HIGH = 32, AREAS = 300 };
 
 static lmb_kernels counting;
 static void (*area_of)(lmb_draw_area *area);
-static int areas;
+static int areas, painted; /* painted: with a texture or fog */
 
 static void count_area(lmb_draw_area *area)
 {
     ++areas;
+    painted += area->pixels.state->stage[0].texture != NULL || area->pixels.state->fog != LMB_DRAW_FOG_NONE;
     area_of(area);
 }
 
@@ -304,14 +353,23 @@ typedef struct area_canvas {
     float depth[AREA_WIDE * AREA_HIGH];
 } area_canvas;
 
-/* Draws over `out`. tests: 1: where the depth is less than the stored one. */
-static void draw_area_case(area_canvas *out, float corners[3][3], int tests, const lmb_kernels *kernels)
+/* Draws over `out`. tests: 1: where the depth is less than the stored one. look: 0: one colour; other bits: 1 smooth
+ * colours, 2 and 4 a texture, nearest or bilinear; 8, 16, 24 fog. */
+static void draw_area_case(area_canvas *out, float corners[3][3], int tests, int look, const lmb_kernels *kernels)
 {
+    static const uint8_t colours[3][4] = {{255, 0, 90, 200}, {0, 255, 30, 90}, {70, 20, 255, 255}};
+    static const float uvs[3][2] = {{-0.3f, 0.1f}, {2.7f, 0.4f}, {0.2f, 1.9f}};
+    static uint8_t texels[4 * TEXELS];
+    const lmb_texture texture = {texels, 16, 8, 1, LMB_WRAP_REPEAT, LMB_WRAP_MIRROR,
+                                 (uint8_t)((look & 4) != 0 ? LMB_BILINEAR : LMB_NEAREST), LMB_TEXELS_RGBA8};
     lmb_draw_target t;
     lmb_draw_state s;
     lmb_draw_vertices v;
     memset(&t, 0, sizeof t);
     memset(&v, 0, sizeof v);
+    for (int i = 0; i < 4 * TEXELS; ++i) {
+        texels[i] = (uint8_t)(i * 37);
+    }
     CHECK(lmb_surface_init(&t.colour, LMB_RGBA8, AREA_WIDE, AREA_HIGH, out->colour, sizeof out->colour) == LMB_OK);
     CHECK(lmb_draw_state_init(&s, AREA_WIDE, AREA_HIGH) == LMB_OK && lmb_draw_pixels(&s) == LMB_OK);
     s.kernels = kernels;
@@ -320,13 +378,24 @@ static void draw_area_case(area_canvas *out, float corners[3][3], int tests, con
         s.flags |= LMB_DRAW_DEPTH_TEST | LMB_DRAW_DEPTH_WRITE;
         s.depth_func = LMB_DRAW_LESS;
     }
+    if ((look & 6) != 0) {
+        s.stage[0].texture = &texture;
+        v.uvs[0] = uvs;
+    }
+    s.fog = (uint8_t)(look >> 3);
+    s.fog_axis[0] = 0.02f;
+    s.fog_axis[1] = 0.05f;
+    s.fog_end = 3.0f;
+    s.fog_density = 0.7f;
+    s.fog_colour[1] = 200;
+    v.colours = (look & 1) != 0 ? colours[0] : NULL;
     v.positions = corners[0];
     v.count = 3;
     CHECK(lmb_draw_list(&t, &s, &v, LMB_DRAW_TRIANGLES, NULL, NULL) == LMB_OK);
 }
 
 /* The kernel skips tiles left of a triangle. Corners are on a grid of half pixels, so that edges also pass through
- * corners of tiles, and through centres of pixels at the tiles' rims. */
+ * corners of tiles, and through centres of pixels at the tiles' rims. Half of the triangles are of one colour. */
 static void check_areas(const lmb_kernels *backend)
 {
     static area_canvas want, got;
@@ -335,12 +404,12 @@ static void check_areas(const lmb_kernels *backend)
     counting = *backend;
     area_of = counting.draw_area;
     counting.draw_area = area_of != NULL ? count_area : NULL;
-    areas = 0;
+    areas = painted = 0;
     memset(&want, 0, sizeof want);
     memset(&got, 0, sizeof got);
     for (int n = 0; n < AREAS; ++n) {
         float corners[3][3] = {{0}};
-        const int tests = n % 2;
+        const int tests = n % 2, look = n % 4 < 2 ? 0 : n / 4 % 32;
         for (int i = 0; i < 3; ++i) {
             corners[i][0] = 0.5f * (float)any(&r, 2 * AREA_WIDE + 1);
             corners[i][1] = 0.5f * (float)any(&r, 2 * AREA_HIGH + 1);
@@ -355,12 +424,13 @@ static void check_areas(const lmb_kernels *backend)
             memset(want.colour, 0, sizeof want.colour);
             memset(got.colour, 0, sizeof got.colour);
         }
-        draw_area_case(&want, corners, tests, NULL);
-        draw_area_case(&got, corners, tests, &counting);
+        draw_area_case(&want, corners, tests, look, NULL);
+        draw_area_case(&got, corners, tests, look, &counting);
         unlike += memcmp(&want, &got, sizeof want) != 0;
     }
     CHECK_MSG(unlike == 0, "%s: %d of %d triangles differ from plain C", lmb_kernels_name(backend), unlike, AREAS);
-    CHECK_MSG(area_of == NULL || areas > AREAS / 2, "%s: %d areas", lmb_kernels_name(backend), areas);
+    CHECK_MSG(area_of == NULL || (areas > AREAS / 2 && painted > AREAS / 4), "%s: %d areas, %d painted",
+              lmb_kernels_name(backend), areas, painted);
 }
 #else
 static void check_areas(const lmb_kernels *backend) { (void)backend; }

@@ -33,8 +33,9 @@ static int is_inner(uint64_t mask, int k)
 static uint64_t shade(void *user, const lmb_draw_pixels_of *p, uint8_t colour[64][4])
 {
     uint64_t out = 0;
-    float shares[2][64];
+    float shares[2][64], by_x[2][64], by_y[2][64];
     lmb_draw_shares(shares, p);
+    lmb_draw_steps(by_x, by_y, p);
     seen.strange += user != &seen || p->mask == 0 || p->x % 8 != 0 || p->y % 8 != 0;
     ++seen.calls;
     seen.backs += p->is_back;
@@ -43,6 +44,9 @@ static uint64_t shade(void *user, const lmb_draw_pixels_of *p, uint8_t colour[64
         lmb_draw_fragment_at at, next[2];
         lmb_draw_fragment(&at, p, k);
         seen.strange += (p->mask >> k & 1) != 0 && (shares[0][k] != at.share[0] || shares[1][k] != at.share[1]);
+        for (int i = 0; i < 2 && (p->mask >> k & 1) != 0; ++i) {
+            seen.strange += by_x[i][k] != at.by_x[i] || by_y[i][k] != at.by_y[i];
+        }
         for (int i = 0; i < 4 && is_inner(p->mask, k); ++i) { /* from both sides */
             const float by = i < 2 ? at.by_x[i % 2] : at.by_y[i % 2];
             lmb_draw_fragment(&next[0], p, k - (i < 2 ? 1 : 8));
