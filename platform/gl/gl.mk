@@ -13,7 +13,8 @@ GL_COMPILE  = $(CC) -std=c99 $(CFLAGS) $(GL_MORE) -fPIC $(WARNINGS) -ffp-contrac
 gl: $(GL_NAMES) $(GL_OUT)/libGL.a ## OpenGL 1.x in memory: build/gl/libOSMesa.so.8, libOpenGL.so.0, libGL.so.1, libGL.a (platform/gl)
 
 # Gears takes a sixth less time if more of a draw's calls are inlined, and the loops of kernels unrolled.
-$(GL_OUT)/obj/src/draw/%.o $(GL_OUT)/obj/src/isa/%.o $(addprefix $(GL_OUT)/obj/platform/gl/,gl_fragment.o gl_light.o): GL_MORE := $(if $(filter -O2,$(CFLAGS)),-O3)
+$(GL_OUT)/obj/src/draw/%.o $(GL_OUT)/obj/src/isa/%.o $(GL_OUT)/obj/platform/gl/gl_wide_%.o \
+    $(addprefix $(GL_OUT)/obj/platform/gl/,gl_fragment.o gl_light.o): GL_MORE := $(if $(filter -O2,$(CFLAGS)),-O3)
 
 $(GL_OUT)/obj/%.o: %.c platform/gl/gl.mk
 	@mkdir -p $(@D)

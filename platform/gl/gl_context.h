@@ -247,6 +247,7 @@ typedef struct gl_surface {
     int32_t is_complete;
 } gl_surface;
 
+struct gl_wide_job;
 typedef struct gl_context {
     gl_state s;
     gl_state saved[GL_ATTRIB_STACK];
@@ -292,6 +293,7 @@ typedef struct gl_context {
     lmb_draw_state draw;
     lmb_draw_target target;
     lmb_texture draw_texture;
+    void (*wide)(uint8_t out[64][4], const struct gl_wide_job *job, uint64_t mask); /* gl_wide.h's; NULL: none */
     struct gl_shade *shade;
     int32_t shades;      /* 1: the shader colours */
     int32_t bounces;     /* 1: with bounced light */

@@ -1,6 +1,6 @@
 /* gl_fragment.c: a pixel's colour if draw.h's own stages are not enough: textures of all kinds, texture environments,
  * two sides, colour sums, fog and stipples. Values are 0 .. 1 until the end. */
-#include "gl_four.h"
+#include "gl_wide.h"
 
 typedef struct fragment_texel {
     float v[4];
@@ -422,110 +422,93 @@ static int fragment_is_out(const gl_context *c, int is_line, int is_area, int32_
     return 0;
 }
 
-static int fragment_has_units(const gl_context *c)
+/* --- pixels by lanes ---------------------------------------------------------------------------------------------- */
+
+/* Returns whether gl_wide.h knows a unit: 2D textures of any filter and wrap in the classic environments. */
+static int fragment_unit_is_wide(const gl_texture *t, const gl_unit *u)
 {
-    int any = 0;
-    for (int i = 0; i < GL_UNITS; ++i) {
-        any |= gl_unit_is_on(c, i);
+    const gl_image *m = &t->image[0][t->base_level];
+    int plain = t->target == TARGET_2D && m->border == 0 && m->base != GL_DEPTH_COMPONENT && u->mode != GL_COMBINE;
+    for (int i = 0; i < 4; ++i) {
+        plain &= t->swizzle[i] == GL_RED + (GLenum)i;
     }
-    return any;
+    return plain;
 }
 
-/* --- pixels without textures -------------------------------------------------------------------------------------- */
-
-/* The share that fog leaves at a distance. */
-static inline four four_fog(four z, const gl_context *c)
+static int fragment_is_wide(const gl_context *c)
 {
-    const float start = c->s.fog.start, end = c->s.fog.end;
-    four v = c->s.fog.density * z;
-    if (c->s.fog.mode == GL_LINEAR && end == start) {
-        v = FOUR_PICK(z < four_splat(end), four_splat(1.0f), four_splat(0.0f));
-    } else if (c->s.fog.mode == GL_LINEAR) {
-        v = (end - z) / (end - start);
-    } else if (c->s.fog.mode == GL_EXP) {
-        v = four_exp2(-v * 1.44269504f);
-    } else {
-        v = four_exp2(-v * v * 1.44269504f);
+    int wide = c->wide != NULL;
+    for (int i = 0; i < GL_UNITS && wide; ++i) {
+        wide = !gl_unit_is_on(c, i) || fragment_unit_is_wide(gl_unit_texture(c, i), &c->s.texture.unit[i]);
     }
-    return four_range(v);
+    return wide;
 }
 
-/* A value of the primitive's vertices: that of vertex 0, and the differences of the others. */
-typedef struct fragment_value {
-    float at, more1, more2;
-} fragment_value;
-
-static fragment_value fragment_value_of(float a, float b, float d)
+static gl_wide_value fragment_value_of(float a, float b, float d)
 {
-    const fragment_value v = {a, b - a, d - a};
+    const gl_wide_value v = {a, b - a, d - a};
     return v;
 }
 
-static inline four four_mix(const fragment_value *v, const four share[2])
+static int fragment_is_all(const gl_wide_value *v, float of)
 {
-    return v->at + (share[0] * v->more1 + share[1] * v->more2);
+    return v->at == of && v->more1 == 0.0f && v->more2 == 0.0f;
 }
 
-/* Values of a primitive without textures: R, G, B, A; the secondary colour; the fog's distance. */
-typedef struct fragment_values {
-    fragment_value colour[4], second[3], fog;
-    four_bits alpha; /* its code, if it does not vary */
-    int varies;      /* channels that vary, or may: 3 or 4 */
-    int adds, fogs;  /* 1: a secondary colour that is not 0; fog */
-} fragment_values;
-
-static void fragment_set_values(fragment_values *out, const gl_context *c, const gl_made *const m[3], int side)
+static void fragment_set_unit(gl_wide_unit *out, const gl_context *c, const gl_made *const m[3], int unit)
 {
+    const gl_texture *t = gl_unit_texture(c, unit);
+    const float *p = m[0]->tex[unit], *q = m[1]->tex[unit], *r = m[2]->tex[unit];
+    out->texture = t;
+    out->unit = &c->s.texture.unit[unit];
+    out->base = fragment_base(t);
+    out->s = fragment_value_of(p[0], q[0], r[0]);
+    out->t = fragment_value_of(p[1], q[1], r[1]);
+    out->q = fragment_value_of(p[3], q[3], r[3]);
+    out->divides = !fragment_is_all(&out->q, 1.0f);
+    out->has_levels = t->min_filter != t->mag_filter;
+    out->bias = clampf(out->unit->lod_bias + t->lod_bias, -16.0f, 16.0f);
+}
+
+static void fragment_set_job(gl_wide_job *out, const gl_context *c, const gl_made *const m[3], int side)
+{
+    out->context = c;
     out->adds = 0;
     out->fogs = gl_is_on(c, CAP_FOG);
     for (int i = 0; i < 4; ++i) {
         out->colour[i] = fragment_value_of(m[0]->colour[side][i], m[1]->colour[side][i], m[2]->colour[side][i]);
     }
-    const fragment_value *alpha = &out->colour[3];
-    out->varies = alpha->more1 == 0.0f && alpha->more2 == 0.0f ? 3 : 4;
-    out->alpha = four_code(four_range(four_splat(out->varies == 3 ? alpha->at : 0.0f)), 3);
     for (int i = 0; i < 3; ++i) {
-        const fragment_value v =
-            fragment_value_of(m[0]->second[side][i], m[1]->second[side][i], m[2]->second[side][i]);
-        out->second[i] = v;
-        out->adds |= v.at != 0.0f || v.more1 != 0.0f || v.more2 != 0.0f;
+        out->second[i] = fragment_value_of(m[0]->second[side][i], m[1]->second[side][i], m[2]->second[side][i]);
+        out->adds |= !fragment_is_all(&out->second[i], 0.0f);
     }
     out->fog = fragment_value_of(m[0]->fog, m[1]->fog, m[2]->fog);
-}
-
-static inline four_bits four_colours(const gl_context *c, const fragment_values *v, const four share[2])
-{
-    const four left = v->fogs ? four_fog(four_mix(&v->fog, share), c) : four_splat(1.0f);
-    four_bits codes = v->alpha;
-    for (int n = 0; n < v->varies; ++n) {
-        four r = four_mix(&v->colour[n], share);
-        if (v->adds && n < 3) {
-            r += four_mix(&v->second[n], share);
+    out->units = 0;
+    for (int i = 0; i < GL_UNITS; ++i) {
+        if (gl_unit_is_on(c, i)) {
+            fragment_set_unit(&out->unit[out->units++], c, m, i);
         }
-        r = four_range(r);
-        if (v->fogs && n < 3) {
-            r = four_range(left * r + (1.0f - left) * c->s.fog.colour[n]);
-        }
-        codes |= four_code(r, n);
     }
-    return codes;
 }
 
-/* Pixels of a primitive without textures, stipples and bounced light. */
-static void fragment_bare(const gl_context *c, const lmb_draw_pixels_of *p, const gl_made *const m[3], int side,
+/* Pixels of a primitive without stipples, point sprites and bounced light. */
+static void fragment_wide(const gl_context *c, const lmb_draw_pixels_of *p, const gl_made *const m[3], int side,
                           uint8_t out[64][4])
 {
-    float share[2][64];
-    fragment_values v;
-    fragment_set_values(&v, c, m, side);
-    lmb_draw_shares(share, p);
-    for (int k = 0; k < 64; k += FOUR) {
-        if ((p->mask >> k & ((1u << FOUR) - 1u)) != 0) {
-            const four of[2] = {four_load(&share[0][k]), four_load(&share[1][k])};
-            four_save_codes(out + k, four_colours(c, &v, of), FOUR);
-        }
+    gl_wide_job job;
+    int has_levels = 0;
+    fragment_set_job(&job, c, m, side);
+    for (int i = 0; i < job.units; ++i) {
+        has_levels |= job.unit[i].has_levels;
     }
+    lmb_draw_shares(job.share, p);
+    if (has_levels) {
+        lmb_draw_steps(job.by_x, job.by_y, p);
+    }
+    c->wide(out, &job, p->mask);
 }
+
+/* --- the shader --------------------------------------------------------------------------------------------------- */
 
 uint64_t gl_shade_pixels(void *user, const lmb_draw_pixels_of *p, uint8_t out[64][4])
 {
@@ -537,9 +520,9 @@ uint64_t gl_shade_pixels(void *user, const lmb_draw_pixels_of *p, uint8_t out[64
     const int fogs = gl_is_on(c, CAP_FOG), sprites = is_point && gl_is_on(c, CAP_POINT_SPRITE);
     const int bounces = is_area && c->bounces;
     uint64_t kept = p->mask;
-    if (!bounces && !(is_line && gl_is_on(c, CAP_LINE_STIPPLE)) && !(is_area && gl_is_on(c, CAP_POLYGON_STIPPLE)) &&
-        !fragment_has_units(c)) {
-        fragment_bare(c, p, m, side, out);
+    if (!bounces && !sprites && !(is_line && gl_is_on(c, CAP_LINE_STIPPLE)) &&
+        !(is_area && gl_is_on(c, CAP_POLYGON_STIPPLE)) && fragment_is_wide(c)) {
+        fragment_wide(c, p, m, side, out);
         return kept;
     }
     fragment_coords u[GL_UNITS];

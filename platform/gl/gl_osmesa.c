@@ -6,7 +6,7 @@
 #endif
 #include <stdlib.h>
 
-#include "gl_context.h"
+#include "gl_wide.h"
 #include "include/GL/osmesa.h"
 
 GL_THREAD gl_context *gl_now;
@@ -84,6 +84,7 @@ static gl_context *osmesa_create(GLenum format, int depth, int stencil, int accu
     gl_state_init(c);
     const char *kernels = getenv("LAMBENT_GL_KERNELS"); /* "none": plain C; for tests: all draw the same */
     c->kernels = kernels != NULL ? lmb_kernels_named(kernels) : lmb_kernels_pick();
+    c->wide = gl_wide_pick(c->kernels);
     return c;
 }
 

@@ -280,6 +280,11 @@ static void vertex_draw_list(gl_context *c, const uint32_t *index, uint32_t coun
     }
 }
 
+static uint8_t vertex_line_px(const gl_context *c)
+{
+    return (uint8_t)clampf(floorf(c->s.line.width + 0.5f), 1.0f, 255.0f);
+}
+
 /* Draws a line; if it continues the line before, so does the stipple. */
 static void vertex_line(gl_context *c, uint32_t a, uint32_t b)
 {
@@ -289,7 +294,7 @@ static void vertex_line(gl_context *c, uint32_t a, uint32_t b)
         c->stipple_at = 1;
         return;
     }
-    c->draw.line_px = (uint8_t)clampf(floorf(c->s.line.width + 0.5f), 1.0f, 255.0f);
+    c->draw.line_px = vertex_line_px(c);
     if (gl_is_on(c, CAP_LINE_STIPPLE)) {
         float from[3], to[3];
         gl_window_place(c, c->made[a].clip, from);
@@ -569,6 +574,23 @@ static int vertex_area_mode(const gl_context *c)
     return fills ? modes[c->primitive] : -1;
 }
 
+/* draw.h's primitive if the batch is lines or points that need no values of their own for each; -1: not. */
+static int vertex_line_mode(const gl_context *c)
+{
+    const float *a = c->s.point.attenuation;
+    const int closes = !c->is_continued && !c->is_inside, fades = a[0] != 1.0f || a[1] != 0.0f || a[2] != 0.0f;
+    if (c->render_mode != GL_RENDER || gl_is_on(c, CAP_LINE_STIPPLE)) {
+        return -1;
+    }
+    switch (c->primitive) {
+    case GL_POINTS: return fades ? -1 : LMB_DRAW_POINTS;
+    case GL_LINES: return LMB_DRAW_LINES;
+    case GL_LINE_STRIP: return LMB_DRAW_LINE_STRIP;
+    case GL_LINE_LOOP: return closes ? LMB_DRAW_LINE_LOOP : LMB_DRAW_LINE_STRIP;
+    default: return -1;
+    }
+}
+
 /* --- batches outside the picture ---------------------------------------------------------------------------------- */
 
 /* Above the rounding errors of the transformation and of draw.h's clipping, per sum of absolute products. */
@@ -684,7 +706,15 @@ static void vertex_set_lit(gl_context *c)
     gl_light_codes(c, c->made_count);
 }
 
-/* Draws filled primitives in a state that needs no values but those of draw.h. Returns 0 if it cannot. */
+/* Sets the sizes of a mode of vertex_line_mode. */
+static void vertex_set_sizes(gl_context *c)
+{
+    static const float none[4] = {0.0f, 0.0f, 0.0f, 1.0f};
+    c->draw.line_px = vertex_line_px(c);
+    c->draw.point_px = (uint8_t)(vertex_point_size(c, none) + 0.5f);
+}
+
+/* Draws primitives in a state that needs no values but those of draw.h. Returns 0 if it cannot. */
 static int vertex_plain(gl_context *c, int mode)
 {
     static const float one[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
@@ -709,6 +739,17 @@ static int vertex_plain(gl_context *c, int mode)
     return 1;
 }
 
+/* The same for lines and points without light: vertices of other primitives than areas are lit one by one. */
+static int vertex_plain_lines(gl_context *c, int shows)
+{
+    const int mode = vertex_line_mode(c);
+    if (mode < 0 || !shows || gl_is_on(c, CAP_LIGHTING)) {
+        return 0;
+    }
+    vertex_set_sizes(c);
+    return vertex_plain(c, mode);
+}
+
 /* Draws filled primitives in one call. */
 static int vertex_areas(gl_context *c)
 {
@@ -718,6 +759,18 @@ static int vertex_areas(gl_context *c)
         (vertex_has_units(c) && !vertex_set_all_units(c))) {
         return 0;
     }
+    vertex_draw_list(c, NULL, 0, mode);
+    return 1;
+}
+
+/* Draws lines or points in one call. */
+static int vertex_lines(gl_context *c)
+{
+    const int mode = vertex_line_mode(c);
+    if (mode < 0 || (c->s.lighting.shade == GL_FLAT && c->shades)) {
+        return 0;
+    }
+    vertex_set_sizes(c);
     vertex_draw_list(c, NULL, 0, mode);
     return 1;
 }
@@ -740,7 +793,7 @@ static void vertex_general(gl_context *c)
             c->dirty = 1;
         }
     }
-    if (!vertex_areas(c)) {
+    if (!vertex_areas(c) && !vertex_lines(c)) {
         vertex_each_primitive(c);
     }
 }
@@ -755,7 +808,7 @@ void gl_flush_vertices(gl_context *c)
     }
     gl_set_draw(c);
     const int mode = vertex_area_mode(c), shows = c->window.is_complete && c->drawn.is_complete && c->draws;
-    if (mode < 0 || (shows && !vertex_all_out(c) && !vertex_plain(c, mode))) {
+    if (mode < 0 ? !vertex_plain_lines(c, shows) : shows && !vertex_all_out(c) && !vertex_plain(c, mode)) {
         vertex_general(c);
     }
     c->count = c->made_count = c->looks = c->open = 0;

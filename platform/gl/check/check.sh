@@ -23,8 +23,8 @@ own() {
     if cmp -s "$out/own.txt" $here/own.txt; then good; else bad "own: $out/own.txt is not $here/own.txt"; fi
 }
 
-# Hostile arguments, batches at the edges of the picture, two contexts in two threads, lit vertices, and lists that fill
-# the memory. CFLAGS are those of the library, as a sanitizer needs.
+# Hostile arguments, batches at the edges of the picture, two contexts in two threads, lit vertices, random draws by
+# every back end, and lists that fill the memory. CFLAGS are those of the library, as a sanitizer needs.
 program() {
     if ! ${CC:-cc} ${CFLAGS:-} -std=gnu99 -O1 -Iplatform/gl/include -o "$out/$1" "$2" "$gl/libGL.a" -lm -lpthread; then
         bad "$2 does not compile"
@@ -37,6 +37,7 @@ outside() { program outside $here/outside.c; }
 threads() { program threads $here/threads.c; }
 full() { program full $here/full.c; }
 fours() { program fours $here/fours.c; }
+alike() { program alike $here/alike.c; }
 
 # Bounced light: the checks of bounced.c, and the same pictures by every back end.
 bounced() {
@@ -98,8 +99,8 @@ piglit() {
     if [ -z "$missing" ]; then good; else bad "piglit: $missing"; fi
 }
 
-clients=${GL_CLIENTS:-own hostile outside threads full fours bounced glu glfw pyopengl piglit}
-[ "$clients" = fast ] && clients="own hostile outside threads full fours bounced glu glfw pyopengl"
+clients=${GL_CLIENTS:-own hostile outside threads full fours alike bounced glu glfw pyopengl piglit}
+[ "$clients" = fast ] && clients="own hostile outside threads full fours alike bounced glu glfw pyopengl"
 for client in $clients; do
     $client
 done

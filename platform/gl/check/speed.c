@@ -12,7 +12,8 @@
 #include <time.h>
 #include <unistd.h>
 
-enum { WIDTH = 1024, HEIGHT = 768, TRIANGLES = 100000, LISTED = 1000000, QUADS = 10000, CLEARS = 50, FRAMES = 20 };
+enum { WIDTH = 1024, HEIGHT = 768, TRIANGLES = 100000, LARGE = 1000, LISTED = 1000000, QUADS = 10000, CLEARS = 50,
+       FRAMES = 20 };
 
 #define CALLS(X) \
     X(glBegin, void, (GLenum)) X(glEnd, void, (void)) X(glVertex3f, void, (GLfloat, GLfloat, GLfloat)) \
@@ -27,6 +28,7 @@ enum { WIDTH = 1024, HEIGHT = 768, TRIANGLES = 100000, LISTED = 1000000, QUADS =
     X(glTranslatef, void, (GLfloat, GLfloat, GLfloat)) X(glRotatef, void, (GLfloat, GLfloat, GLfloat, GLfloat)) \
     X(glPushMatrix, void, (void)) X(glPopMatrix, void, (void)) X(glLightfv, void, (GLenum, GLenum, const GLfloat *)) \
     X(glMaterialfv, void, (GLenum, GLenum, const GLfloat *)) X(glShadeModel, void, (GLenum)) \
+    X(glFogi, void, (GLenum, GLint)) X(glFogf, void, (GLenum, GLfloat)) X(glFogfv, void, (GLenum, const GLfloat *)) \
     X(glGetString, const GLubyte *, (GLenum))
 #define POINTER(name, result, args) static result (*p_##name) args;
 CALLS(POINTER)
@@ -55,6 +57,19 @@ static void immediate(void)
     p_glBegin(GL_TRIANGLES);
     for (int i = 0; i < TRIANGLES; ++i) {
         small_triangle();
+    }
+    p_glEnd();
+}
+
+/* Lines of up to 20 px a side. */
+static void lines(void)
+{
+    p_glBegin(GL_LINES);
+    for (int i = 0; i < TRIANGLES; ++i) {
+        const float x = 1.9f * random_unit() - 1, y = 1.9f * random_unit() - 1;
+        p_glColor3f(x, y, 1);
+        p_glVertex3f(x, y, x);
+        p_glVertex3f(x + 0.04f * (2 * random_unit() - 1), y + 0.05f * (2 * random_unit() - 1), y);
     }
     p_glEnd();
 }
@@ -179,6 +194,85 @@ static void gears(void)
     p_glLoadIdentity();
 }
 
+/* Large triangles in perspective, about 150 px a side, of random directions and depths. */
+enum { LARGE_TEXTURE = 1, LARGE_SMOOTH = 2, LARGE_FOG = 4, LARGE_BLEND = 8, LARGE_LINEAR = 16, LARGE_MIPS = 32 };
+
+static void large(int how, GLint fog)
+{
+    static const GLfloat grey[4] = {0.6f, 0.65f, 0.7f, 1};
+    static unsigned char texels[64 * 64 * 4];
+    const GLint filter = (how & LARGE_LINEAR) != 0 ? GL_LINEAR : GL_NEAREST;
+    for (int i = 0; i < (int)sizeof texels; ++i) {
+        texels[i] = (unsigned char)(i * 37);
+    }
+    if ((how & LARGE_TEXTURE) != 0) {
+        p_glTexParameteri(GL_TEXTURE_2D, GL_GENERATE_MIPMAP, (how & LARGE_MIPS) != 0);
+        p_glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, 64, 64, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
+        p_glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER,
+                          (how & LARGE_MIPS) != 0 ? GL_LINEAR_MIPMAP_LINEAR : filter);
+        p_glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
+        p_glEnable(GL_TEXTURE_2D);
+    }
+    if ((how & LARGE_FOG) != 0) {
+        p_glEnable(GL_FOG);
+        p_glFogi(GL_FOG_MODE, fog);
+        p_glFogfv(GL_FOG_COLOR, grey);
+        p_glFogf(GL_FOG_START, 2);
+        p_glFogf(GL_FOG_END, 9);
+        p_glFogf(GL_FOG_DENSITY, 0.15f);
+    }
+    if ((how & LARGE_BLEND) != 0) {
+        p_glEnable(GL_BLEND);
+        p_glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    }
+    p_glMatrixMode(GL_PROJECTION);
+    p_glFrustum(-1, 1, -0.75, 0.75, 2, 20);
+    p_glMatrixMode(GL_MODELVIEW);
+    p_glBegin(GL_TRIANGLES);
+    for (int i = 0; i < LARGE; ++i) {
+        const float z = 3 + 5 * random_unit(), x = (2 * random_unit() - 1) * z * 0.3f,
+                    y = (2 * random_unit() - 1) * z * 0.25f;
+        float red = 1;
+        for (int k = 0; k < 3; ++k) {
+            const float to = z + random_unit() * 1.5f, size = 0.15f * z;
+            red = (how & LARGE_SMOOTH) != 0 || k == 0 ? random_unit() : red;
+            if ((how & LARGE_SMOOTH) != 0 || k == 0) {
+                p_glColor3f(red, 1 - red, 0.75f);
+            }
+            p_glTexCoord2f((float)(k == 1) * 2.5f, (float)(k == 2) * 2.5f);
+            p_glVertex3f(x + (k == 1 ? size : k == 2 ? -0.3f * size : 0),
+                         y + (k == 2 ? size : 0.2f * size * random_unit()), -to);
+        }
+    }
+    p_glEnd();
+    p_glMatrixMode(GL_PROJECTION);
+    p_glLoadIdentity();
+    p_glMatrixMode(GL_MODELVIEW);
+    p_glDisable(GL_TEXTURE_2D);
+    p_glDisable(GL_FOG);
+    p_glDisable(GL_BLEND);
+    p_glTexParameteri(GL_TEXTURE_2D, GL_GENERATE_MIPMAP, 0);
+}
+static void large_smooth(void) { large(LARGE_SMOOTH, 0); }
+static void large_nearest(void) { large(LARGE_TEXTURE | LARGE_SMOOTH, 0); }
+static void large_linear(void) { large(LARGE_TEXTURE | LARGE_SMOOTH | LARGE_LINEAR, 0); }
+static void large_mips(void) { large(LARGE_TEXTURE | LARGE_SMOOTH | LARGE_LINEAR | LARGE_MIPS, 0); }
+static void large_fog(void) { large(LARGE_FOG | LARGE_SMOOTH, GL_LINEAR); }
+static void large_fog_nearest(void) { large(LARGE_TEXTURE | LARGE_FOG, GL_LINEAR); }
+static void large_fog_linear(void) { large(LARGE_TEXTURE | LARGE_FOG | LARGE_LINEAR, GL_LINEAR); }
+static void large_fog_smooth(void) { large(LARGE_TEXTURE | LARGE_FOG | LARGE_SMOOTH | LARGE_LINEAR, GL_LINEAR); }
+static void large_fog_exp(void) { large(LARGE_TEXTURE | LARGE_FOG | LARGE_SMOOTH | LARGE_LINEAR, GL_EXP); }
+static void large_fog_exp2(void) { large(LARGE_TEXTURE | LARGE_FOG | LARGE_SMOOTH | LARGE_LINEAR, GL_EXP2); }
+static void large_fog_mips(void)
+{
+    large(LARGE_TEXTURE | LARGE_FOG | LARGE_SMOOTH | LARGE_LINEAR | LARGE_MIPS, GL_LINEAR);
+}
+static void large_fog_blend(void) { large(LARGE_FOG | LARGE_BLEND, GL_LINEAR); }
+static void large_all(void)
+{
+    large(LARGE_TEXTURE | LARGE_FOG | LARGE_SMOOTH | LARGE_LINEAR | LARGE_BLEND, GL_LINEAR);
+}
+
 static const struct workload { const char *name, *unit; double by; void (*run)(void); } workloads[] = {
     {"100,000 immediate-mode triangles", "ms", 1e3, immediate},
     {"compiling a list again, per glVertex3f", "ns", 1e9 / (3.0 * LISTED), compile_list},
@@ -187,7 +281,21 @@ static const struct workload { const char *name, *unit; double by; void (*run)(v
     {"10,000 blended quads of 32x32, nearest", "ms", 1e3, quads_nearest},
     {"10,000 blended quads of 32x32, linear", "ms", 1e3, quads_linear},
     {"clear 1024x768, colour and depth", "ms", 1e3 / CLEARS, clears},
-    {"gears 1024x768, per frame", "ms", 1e3 / FRAMES, gears}};
+    {"gears 1024x768, per frame", "ms", 1e3 / FRAMES, gears},
+    {"100,000 immediate-mode lines", "ms", 1e3, lines},
+    {"1,000 large triangles, smooth", "ms", 1e3, large_smooth},
+    {"texture, smooth, nearest", "ms", 1e3, large_nearest},
+    {"texture, smooth, linear", "ms", 1e3, large_linear},
+    {"texture, smooth, trilinear", "ms", 1e3, large_mips},
+    {"fog, smooth", "ms", 1e3, large_fog},
+    {"fog, texture, nearest", "ms", 1e3, large_fog_nearest},
+    {"fog, texture, linear", "ms", 1e3, large_fog_linear},
+    {"fog, texture, smooth, linear", "ms", 1e3, large_fog_smooth},
+    {"the same, GL_EXP", "ms", 1e3, large_fog_exp},
+    {"the same, GL_EXP2", "ms", 1e3, large_fog_exp2},
+    {"fog, texture, smooth, trilinear", "ms", 1e3, large_fog_mips},
+    {"fog, blended", "ms", 1e3, large_fog_blend},
+    {"fog, texture, smooth, linear, blended", "ms", 1e3, large_all}};
 enum { WORKLOADS = sizeof workloads / sizeof workloads[0] };
 
 /* User and system time: the kernel splits the two by samples, and called whole workloads system time. */
