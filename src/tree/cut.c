@@ -461,6 +461,101 @@ static double allowed_upper(const cutter *c, double lower)
     return maxd(share * (c->beside + maxd(c->value, lower)), c->floor);
 }
 
+#if LMB_FACETS
+
+/* Heights of a box's corners over the plane of a triangle, and over the inner sides of the triangle's edges. */
+typedef struct hidden_corners {
+    float height[8], inside[3][8];
+} hidden_corners;
+
+/* Planes of a triangle: its own, and those through its edges, perpendicular to it; unit, towards the inside. */
+typedef struct hiding_planes {
+    lmb_vec3 on[3], normal, inner[3];
+} hiding_planes;
+
+static void set_corners(hidden_corners *out, const hiding_planes *t, lmb_vec3 middle, const lmb_vec3 side[3])
+{
+    for (int i = 0; i < 8; ++i) {
+        const lmb_vec3 at = add3(middle, add3(mul3(side[0], i & 1 ? 1.0f : -1.0f),
+                                              add3(mul3(side[1], i & 2 ? 1.0f : -1.0f),
+                                                   mul3(side[2], i & 4 ? 1.0f : -1.0f))));
+        out->height[i] = dot3(t->normal, sub3(at, t->on[0]));
+        for (int k = 0; k < 3; ++k) {
+            out->inside[k][i] = dot3(t->inner[k], sub3(at, t->on[k]));
+        }
+    }
+}
+
+/* 1 if all corners lie on one side of the plane, at least `margin` off. */
+static int are_on_side(const hidden_corners *c, float sign, float margin)
+{
+    int all = 1;
+    for (int i = 0; i < 8; ++i) {
+        all &= sign * c->height[i] > margin;
+    }
+    return all;
+}
+
+/* 1 if a triangle crosses all segments between a node's box and the box of the pixel cluster. The places at which these
+ * meet the plane lie between those of the segments between corners. Then no part of the node is visible. */
+NOINLINE int hides_node(const cutter *c, const lmb_node *n, const lmb_bvh_triangle *by, float margin)
+{
+    const lmb_pixel_cluster *p = c->p;
+    const float before = dot3(by->normal, sub3(p->centre, by->corner[0])),
+                behind = dot3(by->normal, sub3(n->middle, by->corner[0]));
+    hiding_planes t;
+    hidden_corners from, to;
+    if (!(before * behind < 0.0f) || absf(behind) < n->half[0] * absf(dot3(by->normal, n->normal))) {
+        return 0;
+    }
+    const lmb_vec3 far[3] = {mul3(n->normal, n->half[0]), mul3(n->across, n->half[1]),
+                             mul3(cross3(n->normal, n->across), n->half[2])};
+    const lmb_vec3 near[3] = {mul3(p->axis[0], p->half[0]), mul3(p->axis[1], p->half[1]),
+                              mul3(p->axis[2], p->half[2])};
+    t.normal = by->normal;
+    for (int k = 0; k < 3; ++k) {
+        t.on[k] = by->corner[k];
+        t.inner[k] = normalize3(cross3(t.normal, sub3(by->corner[(k + 1) % 3], by->corner[k])));
+    }
+    const float turn = dot3(t.inner[0], sub3(by->corner[2], by->corner[0])) < 0.0f ? -1.0f : 1.0f;
+    for (int k = 0; k < 3; ++k) {
+        t.inner[k] = mul3(t.inner[k], turn);
+    }
+    set_corners(&from, &t, p->centre, near);
+    set_corners(&to, &t, n->middle, far);
+    const float sign = from.height[0] < 0.0f ? -1.0f : 1.0f;
+    if (!are_on_side(&from, sign, margin) || !are_on_side(&to, -sign, margin)) {
+        return 0;
+    }
+    int all = 1;
+    for (int i = 0; i < 64 && all; ++i) {
+        const float here = sign * from.height[i / 8], there = -sign * to.height[i % 8];
+        for (int k = 0; k < 3; ++k) {
+            all &= from.inside[k][i / 8] * there + to.inside[k][i % 8] * here > margin * (here + there);
+        }
+    }
+    return all;
+}
+
+/* 1 if the triangle that hid a node's own point from all pixels hides the whole node. */
+static int is_hidden(const cutter *c, int32_t i)
+{
+    const uint32_t blocker = blocker_of(c->cut, i);
+    if (blocker == 0 || c->tree->element != NULL || c->cut->ref[i].level < 2) {
+        return 0;
+    }
+    const lmb_bvh_triangle *by = &c->cut_params->bvh->triangle[blocker - 1];
+    const lmb_node *n = tree_node(c->tree, c->cut->ref[i]);
+    const float size = length3(sub3(n->middle, c->p->centre)) + n->radius,
+                noise = c->noise + texel_noise(c, c->cut->ref[i].face, n->middle);
+    return (by->id & LMB_BVH_MASKED) == 0 &&
+           hides_node(c, n, by, 2.0f * STAND_OFF * (noise + LMB_NOISE_TRIANGLE * size));
+}
+
+#else
+#define is_hidden(c, i) 0
+#endif
+
 /* Splits the node with the largest upper bound until no node exceeds the allowed bound. Returns 0, or, if the cut is
  * full, the factor by which the largest exceeds it. */
 static double divide_by_upper(cutter *c, double lower, int asks)
@@ -472,7 +567,9 @@ static double divide_by_upper(cutter *c, double lower, int asks)
             return 0.0;
         }
         c->cut->bucket[c->highest] = c->cut->next[i];
-        divide_entry(c, i, c->p->pixels, asks);
+        if (!asks || !is_hidden(c, i)) {
+            divide_entry(c, i, c->p->pixels, asks);
+        }
         i = largest(c);
     }
     return i != NO_SLOT && !has_room(c) ? (double)c->cut->upper[i] / maxd(allowed_upper(c, lower), 1e-30) : 0.0;
