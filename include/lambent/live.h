@@ -46,7 +46,8 @@
 #define LMB_LIVE_SKY    64   /* maximum number of chunks of a sky */
 
 /* A first point. A hash selects one texel to represent a block of the map, 4 x 4 or 8 x 8 texels. If 4 x 4 blocks show
- * one triangle, one texel represents 2 x 2 of them. If a block is not flat, each quarter has a point. 60 bytes. */
+ * one triangle, one texel represents 2 x 2 of them. If a block is not flat, each of up to four
+ * surfaces has a point. 60 bytes. */
 typedef struct lmb_live_point {
     lmb_vec3 position, normal; /* m; unit, on the lit side */
     float flux[3];             /* outgoing Lambertian power of the blocks or parts, W; all 0: no first point */
@@ -120,7 +121,7 @@ typedef struct lmb_live {
     const lmb_scene *scene; /* the scene that it was built from */
     lmb_live_face *face;
     lmb_live_point *point;  /* face_cap x side x side: a slot for each block, in each row the lit ones first, then a
-                               dark one; then 64 slots for further quarters of each group of 8 x 8 blocks; then
+                               dark one; then 64 slots for further surfaces of each group of 8 x 8 blocks; then
                                element_cap of elements */
     const struct lmb_element *element; /* shapes of the element points */
     const lmb_live_sky *sky; /* adds its light; NULL: none */

@@ -82,7 +82,7 @@ int lmb_live_square_is_one(uint32_t *id, const lmb_live_face *face, int32_t colu
     return differ == 0;
 }
 
-int lmb_live_block_is_flat(const lmb_live_block *b, const lmb_live_face *face, const lmb_surface *depth,
+uint32_t lmb_live_block_on(const lmb_live_block *b, const lmb_live_face *face, const lmb_surface *depth,
                            const lmb_live_facet *p)
 {
     const lmb_view *v = &face->view;
@@ -92,15 +92,15 @@ int lmb_live_block_is_flat(const lmb_live_block *b, const lmb_live_face *face, c
     const float wide = FLAT_SHARE * 2.0f * v->half_width * (float)face->each / (float)face->size;
     ptrdiff_t step[2];
     const uint8_t *from = first_part(step, depth, b->x - face->each / 8, b->y - face->each / 8, face->each);
-    int flat = b->shown == 0xffffu;
-    for (int i = 0; i < LMB_LIVE_NODES && flat; ++i) {
+    uint32_t on = 0;
+    for (int i = 0; i < LMB_LIVE_NODES; ++i) {
         const float d = *(const float *)(const void *)(from + i / 4 * step[1] + i % 4 * step[0]);
         const float across = right * texel_sx(v, face->size, b->x + i % 4 * b->step) +
                              up * texel_sy(v, face->size, b->y + i / 4 * b->step);
         const float here = lmb_depth_view_z(v, d), plane = is_cone ? to / (across - back) : (across - to) / back;
-        flat = absf(plane - here) <= (is_cone ? wide * here : wide);
+        on |= (uint32_t)(b->id[i] == p->id || absf(plane - here) <= (is_cone ? wide * here : wide)) << i;
     }
-    return flat;
+    return on & b->shown;
 }
 
 #endif

@@ -89,15 +89,15 @@ static uint32_t slot_runs(const lmb_live *live) { return 2 * live->faces + 1; }
 
 static slot_run slot_run_of(const lmb_live *live, uint32_t run)
 {
-    const size_t blocks = (size_t)live->side * (size_t)live->side, tiles = LIVE_QUARTERS * live_tiles(live->side);
+    const size_t blocks = (size_t)live->side * (size_t)live->side, tiles = LIVE_SURFACES * live_tiles(live->side);
     const uint32_t face = run < live->faces ? run : run - live->faces;
     slot_run s = {live_slots(live->face_cap, live->side), 0, 1, run < 2 * live->faces};
     s.past = s.first + live->elements;
     if (s.of_map) {
         const int32_t side = live_blocks(&live->face[face]);
         s.first = run < live->faces ? face * blocks : live->face_cap * blocks + face * tiles;
-        s.past = s.first + (run < live->faces ? (size_t)side * (size_t)side : LIVE_QUARTERS * live_tiles(side));
-        s.each = run < live->faces ? (size_t)side : LIVE_QUARTERS;
+        s.past = s.first + (run < live->faces ? (size_t)side * (size_t)side : LIVE_SURFACES * live_tiles(side));
+        s.each = run < live->faces ? (size_t)side : LIVE_SURFACES;
     }
     return s;
 }

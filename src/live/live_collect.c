@@ -3,8 +3,9 @@
  * A hash selects one texel of each block as the block's point. So points do not line up along the map, and surfaces
  * that share a block are selected in proportion to their visible area. The point gets all the light through the block.
  * It lies at the texel's middle, where the map was sampled, so never behind an edge. Four blocks amid blocks of the
- * same triangle give one point. Blocks that are not flat give one for each quarter: if the hash selected a surface
- * behind another one, receivers near the one in front would get no light from it. */
+ * same triangle give one point. Blocks that are not flat give one for each surface, with the light of the texels that
+ * show it: if the hash selected a surface behind another one, receivers near the one in front would get no light from
+ * it. */
 #include "live_part.h"
 
 #include <string.h>
@@ -16,6 +17,7 @@
 enum {
     BLOCK = 4,
     LARGE_BLOCK = 8,
+    OTHERS = 3, /* further points of a block that is not flat */
     WIDE = 2,   /* blocks a side that are joined, */
     NEXT = 4,   /* if so many a side are alike: light is finest at edges */
     FACETS = 8, /* that are kept */
@@ -111,7 +113,7 @@ typedef struct collector {
     uint32_t into;
     uint16_t x[LMB_TILE_PIXELS], y[LMB_TILE_PIXELS]; /* the texels of the current tile's blocks */
     uint16_t shows[LMB_TILE_PIXELS];                 /* the parts of each block that the point represents */
-    uint16_t rest[LMB_TILE_PIXELS];                  /* parts in other quarters, which get points of their own */
+    uint16_t rest[OTHERS][LMB_TILE_PIXELS];          /* parts of other surfaces, which get points of their own */
     int is_one;                                      /* all texels of the tile's blocks show one id; x, y are not set */
     int32_t lit[LMB_TILE];                           /* points of each row of the current tiles' blocks so far */
     lmb_live_facet known[FACETS];
@@ -247,16 +249,15 @@ static void move_to_part(collector *c, int32_t column, int32_t row, int k, uint3
     c->y[k] = (uint16_t)(row * each + (2 * (i / 4) + 1) * each / 8);
 }
 
-static uint32_t quarter_of(int q) { return 0x33u << (q % 2 * 2 + q / 2 * 8); }
-
-/* Divides a block that is not flat into quarters: one is that of the pixel's texel, and *others gets the rest. If the
- * texel shows nothing, another one is taken. Returns the id of the texel. */
+/* Divides a block that is not flat by surface. The surface of the pixel's texel has the first point; if that texel
+ * shows nothing, another one is taken. *others: further points of the tile, updated. The last point of a block gets all
+ * surfaces that are left. Returns the id of the texel. */
 static uint32_t divide_block(collector *c, int *others, int32_t column, int32_t row, int k)
 {
+    const lmb_surface *depth = &c->map->face[c->map_face].depth;
     lmb_live_block b;
     lmb_live_block_of(&b, c->face, column, row);
     c->shows[k] = 0xffffu;
-    c->rest[k] = 0;
     if (b.is_one && (c->face->each == BLOCK || live_id(&c->face->id, c->x[k], c->y[k]) == b.id[0])) {
         return b.id[0];
     }
@@ -266,20 +267,26 @@ static uint32_t divide_block(collector *c, int *others, int32_t column, int32_t 
         id = live_id(&c->face->id, c->x[k], c->y[k]);
     }
     const lmb_live_facet *p = lmb_live_facet_of(c->known, FACETS, c->scene, &c->face->view, c->into, id);
-    if (p == NULL || lmb_live_block_is_flat(&b, c->face, &c->map->face[c->map_face].depth, p)) {
+    const uint32_t own = p != NULL ? lmb_live_block_on(&b, c->face, depth, p) : 0;
+    if (p == NULL || own == 0xffffu) {
         return id;
     }
-    const int32_t each = c->face->each;
-    const int own = (c->x[k] - column * each) * 2 / each + (c->y[k] - row * each) * 2 / each * 2;
+    uint32_t part[OTHERS], left = own != 0 ? b.shown & ~own : 0;
     int count = 0;
-    for (int q = 0; q < 4; ++q) {
-        count += q != own && (quarter_of(q) & b.shown) != 0;
+    for (; left != 0; ++count) {
+        const int i = lowest_bit(left);
+        p = count < OTHERS - 1
+                ? lmb_live_facet_of(c->known, FACETS, c->scene, &c->face->view, c->into, b.id[i]) : NULL;
+        part[count] = p != NULL ? (lmb_live_block_on(&b, c->face, depth, p) & left) | 1u << i : left;
+        left &= ~part[count];
     }
     c->shows[k] = (uint16_t)b.shown;
-    if (*others + count <= LIVE_QUARTERS) {
+    if (own != 0 && *others + count <= LIVE_SURFACES) {
         *others += count;
-        c->shows[k] = (uint16_t)(quarter_of(own) & b.shown);
-        c->rest[k] = (uint16_t)(b.shown & ~quarter_of(own));
+        c->shows[k] = (uint16_t)own;
+        for (int q = 0; q < count; ++q) {
+            c->rest[q][k] = (uint16_t)part[q];
+        }
     }
     return id;
 }
@@ -302,22 +309,22 @@ static lmb_status resolve_ids(collector *c, uint32_t id[LMB_TILE_PIXELS], int32_
     return lmb_resolve_albedo(c->tile, c->kernels, &view, c->scene, &window, column, row);
 }
 
-/* Resolves one texel of each block. *others: the number of other quarters that get points. */
+/* Resolves one texel of each block. *others: the number of other surfaces that get points. */
 static lmb_status resolve_blocks(int *others, collector *c, int32_t column, int32_t row, const float *power)
 {
     uint32_t id[LMB_TILE_PIXELS], one;
     *others = 0;
+    memset(c->rest, 0, sizeof c->rest);
     c->is_one = lmb_live_square_is_one(&one, c->face, column, row);
     for (int32_t k = 0; k < LMB_TILE_PIXELS && c->is_one; ++k) {
         id[k] = power[k] > 0.0f ? one : 0;
         c->shows[k] = power[k] > 0.0f ? 0xffffu : 0;
-        c->rest[k] = 0;
     }
     for (int32_t k = 0; k < LMB_TILE_PIXELS && !c->is_one; ++k) {
         const int32_t at = column + k % LMB_TILE, down = row + k / LMB_TILE;
         int32_t x, y;
         id[k] = 0;
-        c->shows[k] = c->rest[k] = 0;
+        c->shows[k] = 0;
         if (at < c->side && down < c->side && power[k] > 0.0f) {
             texel_of(&x, &y, c, at, down);
             c->x[k] = (uint16_t)x;
@@ -368,13 +375,13 @@ static void set_points(collector *c, int32_t column, int32_t row, int k, const f
     }
 }
 
-/* Stores the points of one other quarter of each block; *count: points stored before and after. */
-static lmb_status set_quarter(int *count, lmb_live_point *out, collector *c, int32_t column, int32_t row, int q,
+/* Stores the points of one other surface of each block; *count: points stored before and after. */
+static lmb_status set_other(int *count, lmb_live_point *out, collector *c, int32_t column, int32_t row, int q,
                               const float *power)
 {
     uint32_t id[LMB_TILE_PIXELS];
     for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
-        c->shows[k] = (uint16_t)(c->rest[k] & quarter_of(q));
+        c->shows[k] = c->rest[q][k];
         id[k] = 0;
         if (c->shows[k] != 0) {
             move_to_part(c, column + k % LMB_TILE, row + k / LMB_TILE, k, c->shows[k]);
@@ -392,20 +399,20 @@ static lmb_status set_quarter(int *count, lmb_live_point *out, collector *c, int
     return status;
 }
 
-/* Stores the points of all other quarters of a tile's blocks. */
-static lmb_status set_quarters(collector *c, int others, int32_t column, int32_t row, const float *power)
+/* Stores the points of all other surfaces of a tile's blocks. */
+static lmb_status set_others(collector *c, int others, int32_t column, int32_t row, const float *power)
 {
     const lmb_live *live = c->live;
     const size_t tiles = (size_t)((c->side + LMB_TILE - 1) / LMB_TILE),
                  tile = (size_t)(row / LMB_TILE) * tiles + (size_t)(column / LMB_TILE);
     lmb_live_point *to = live->point + (size_t)live->face_cap * (size_t)live->side * (size_t)live->side +
-                         LIVE_QUARTERS * ((size_t)c->into * live_tiles(live->side) + tile);
+                         LIVE_SURFACES * ((size_t)c->into * live_tiles(live->side) + tile);
     lmb_status status = LMB_OK;
     int count = 0;
-    for (int q = 0; q < 4 && others > 0 && status == LMB_OK; ++q) {
-        status = set_quarter(&count, to, c, column, row, q, power);
+    for (int q = 0; q < OTHERS && others > 0 && status == LMB_OK; ++q) {
+        status = set_other(&count, to, c, column, row, q, power);
     }
-    if (count < LIVE_QUARTERS) {
+    if (count < LIVE_SURFACES) {
         memset(&to[count], 0, sizeof *to);
     }
     return status;
@@ -428,7 +435,7 @@ static lmb_status collect_tile(collector *c, int32_t column, int32_t row)
             set_points(c, column + at % LMB_TILE, row + at / LMB_TILE, at, power, joined);
         }
     }
-    return status == LMB_OK ? set_quarters(c, others, column, row, power) : status;
+    return status == LMB_OK ? set_others(c, others, column, row, power) : status;
 }
 
 /* Collects the tiles of a row. */

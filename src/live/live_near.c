@@ -107,7 +107,9 @@ float lmb_live_softness(const lmb_live *live, const lmb_live_point *p)
 
 float lmb_live_reach2(const lmb_live *live, const lmb_live_point *p)
 {
-    return p->face == LMB_LIVE_ELEMENT ? maxf(p->area, live->element[live_element_of(p)].reach2) : p->area;
+    /* Parts of one surface may lie anywhere in the block. */
+    return p->face == LMB_LIVE_ELEMENT ? maxf(p->area, live->element[live_element_of(p)].reach2)
+                                       : p->area;
 }
 
 int lmb_live_is_whole(const lmb_live *live, const lmb_live_point *p)
@@ -378,7 +380,7 @@ static int put_parts(lmb_live_scratch *s, live_look *l, uint32_t point, uint32_t
     find_parts(&p, l, &l->live->sorted[point], part);
     const uint32_t count = count_bits_16(p.shown);
     const float share = count > 0 ? 1.0f / (float)count : 0.0f, power = whole->power[lane] * share,
-                area = whole->radius2[lane] * share; /* of a point: area */
+                area = whole->radius2[lane] * share; /* of a point: the block's area */
     const float flux[3] = {whole->colour[0][lane] * power, whole->colour[1][lane] * power,
                            whole->colour[2][lane] * power};
     if (!(live_power(flux) > 0.0f)) {

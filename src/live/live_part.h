@@ -59,16 +59,16 @@ typedef struct lmb_live_block {
  * more than 4 x 4 texels, and for squares that lie partly outside. */
 int lmb_live_square_is_one(uint32_t *id, const lmb_live_face *face, int32_t column, int32_t row);
 
-/* lmb_live_block_of: the ids of a block. lmb_live_block_is_flat: 1 if all parts show surfaces in the plane of one
- * facet. `depth`: of the face's map, LMB_DEPTH32F. */
+/* lmb_live_block_of: the ids of a block. lmb_live_block_on: mask of the parts that show a facet, or other surfaces in
+ * the plane of the facet. `depth`: of the face's map, LMB_DEPTH32F. */
 void lmb_live_block_of(lmb_live_block *out, const lmb_live_face *face, int32_t column, int32_t row);
-int lmb_live_block_is_flat(const lmb_live_block *block, const lmb_live_face *face, const lmb_surface *depth,
+uint32_t lmb_live_block_on(const lmb_live_block *block, const lmb_live_face *face, const lmb_surface *depth,
                            const lmb_live_facet *facet);
 
 /* Blocks along a face's side. */
 static inline int32_t live_blocks(const lmb_live_face *f) { return (f->size + f->each - 1) / f->each; }
 
-enum { LIVE_QUARTERS = 64 /* slots for the other quarters of 8 x 8 blocks; after the last point, a dark one */ };
+enum { LIVE_SURFACES = 64 /* slots for the other surfaces of 8 x 8 blocks; after the last point, a dark one */ };
 
 /* Tiles of 8 x 8 blocks in a face of `side` x `side` blocks. */
 static inline size_t live_tiles(int32_t side)
@@ -80,7 +80,7 @@ static inline size_t live_tiles(int32_t side)
 /* Slots of the points of `faces` faces. */
 static inline size_t live_slots(uint32_t faces, int32_t side)
 {
-    return faces * ((size_t)side * (size_t)side + LIVE_QUARTERS * live_tiles(side));
+    return faces * ((size_t)side * (size_t)side + LIVE_SURFACES * live_tiles(side));
 }
 
 /* Number of the element that a point represents. */
