@@ -52,7 +52,7 @@ check "lambent-bench hard prints a line a case" test "$(grep -c '^raster ' out.t
 status 0 lambent-bench hard mixed --json --backend scalar
 check "lambent-bench hard --json says which hold" test "$(grep -c ',"holds":true}$' out.txt)" -ge 8
 status 2 lambent-bench hard nowhere
-said "CASES: \`nowhere\` is not raster, shadow, bounce, probe, relief, mixed, far, whole, baked, cliff, sheet, pillar or room"
+said "CASES: \`nowhere\` is not raster, shadow, bounce, probe, relief, mixed, far, whole, baked, cliff, sheet, pillar, room or slit"
 status 2 lambent-bench hard rastr
 said "did you mean raster?"
 status 2 lambent-bench hard raster shadow

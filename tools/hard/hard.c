@@ -4,11 +4,11 @@
 #include <string.h>
 
 const char *const hard_groups[] = {"raster", "shadow", "bounce", "probe", "relief", "mixed",
-                                   "far",    "whole",  "baked",  "cliff", "sheet", "pillar", "room", NULL};
+                                   "far",    "whole",  "baked",  "cliff", "sheet", "pillar", "room", "slit", NULL};
 
 static void (*const groups[])(hard_list *) = {hard_raster, hard_shadow, hard_bounce, hard_probe,
                                               hard_relief, hard_mixed,  hard_far,    hard_whole, hard_baked,
-                                              hard_cliff,  hard_sheet,  hard_pillar, hard_room};
+                                              hard_cliff,  hard_sheet,  hard_pillar, hard_room, hard_slit};
 
 int hard_run(hard_list *out, int i, const lmb_kernels *kernels)
 {

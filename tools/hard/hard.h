@@ -26,5 +26,6 @@ void hard_cliff(hard_list *list);
 void hard_sheet(hard_list *list);
 void hard_pillar(hard_list *list);
 void hard_room(hard_list *list);
+void hard_slit(hard_list *list);
 
 #endif
