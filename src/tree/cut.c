@@ -538,7 +538,7 @@ NOINLINE int hides_node(const cutter *c, const lmb_node *n, const lmb_bvh_triang
 }
 
 /* 1 if the triangle that hid a node's own point from all pixels hides the whole node. */
-static int is_hidden(const cutter *c, int32_t i)
+NOINLINE int is_hidden(const cutter *c, int32_t i)
 {
     const uint32_t blocker = blocker_of(c->cut, i);
     if (blocker == 0 || c->tree->element != NULL || c->cut->ref[i].level < 2) {
