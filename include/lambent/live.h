@@ -46,8 +46,8 @@
 #define LMB_LIVE_SKY    64   /* maximum number of chunks of a sky */
 
 /* A first point. A hash selects one texel to represent a block of the map, 4 x 4 or 8 x 8 texels. If 4 x 4 blocks show
- * one triangle, one texel represents 2 x 2 of them. If a block is not flat, each of up to four
- * surfaces has a point. 60 bytes. */
+ * one triangle, one texel represents 2 x 2 of them. If a block is not flat, each of up to four surfaces has a point. 60
+ * bytes. */
 typedef struct lmb_live_point {
     lmb_vec3 position, normal; /* m; unit, on the lit side */
     float flux[3];             /* outgoing Lambertian power of the blocks or parts, W; all 0: no first point */

@@ -18,6 +18,7 @@ enum {
     BLOCK = 4,
     LARGE_BLOCK = 8,
     OTHERS = 3, /* further points of a block that is not flat */
+    REST = 7,   /* slots of a tile's further points that hold collector.rest before */
     WIDE = 2,   /* blocks a side that are joined, */
     NEXT = 4,   /* if so many a side are alike: light is finest at edges */
     FACETS = 8, /* that are kept */
@@ -113,7 +114,7 @@ typedef struct collector {
     uint32_t into;
     uint16_t x[LMB_TILE_PIXELS], y[LMB_TILE_PIXELS]; /* the texels of the current tile's blocks */
     uint16_t shows[LMB_TILE_PIXELS];                 /* the parts of each block that the point represents */
-    uint16_t rest[OTHERS][LMB_TILE_PIXELS];          /* parts of other surfaces, which get points of their own */
+    uint16_t (*rest)[LMB_TILE_PIXELS];               /* OTHERS: parts of surfaces that get points of their own */
     int is_one;                                      /* all texels of the tile's blocks show one id; x, y are not set */
     int32_t lit[LMB_TILE];                           /* points of each row of the current tiles' blocks so far */
     lmb_live_facet known[FACETS];
@@ -281,7 +282,7 @@ static uint32_t divide_block(collector *c, int *others, int32_t column, int32_t 
         left &= ~part[count];
     }
     c->shows[k] = (uint16_t)b.shown;
-    if (own != 0 && *others + count <= LIVE_SURFACES) {
+    if (own != 0 && *others + count <= LIVE_SURFACES - REST) {
         *others += count;
         c->shows[k] = (uint16_t)own;
         for (int q = 0; q < count; ++q) {
@@ -314,7 +315,7 @@ static lmb_status resolve_blocks(int *others, collector *c, int32_t column, int3
 {
     uint32_t id[LMB_TILE_PIXELS], one;
     *others = 0;
-    memset(c->rest, 0, sizeof c->rest);
+    memset(c->rest, 0, OTHERS * sizeof *c->rest);
     c->is_one = lmb_live_square_is_one(&one, c->face, column, row);
     for (int32_t k = 0; k < LMB_TILE_PIXELS && c->is_one; ++k) {
         id[k] = power[k] > 0.0f ? one : 0;
@@ -399,14 +400,20 @@ static lmb_status set_other(int *count, lmb_live_point *out, collector *c, int32
     return status;
 }
 
-/* Stores the points of all other surfaces of a tile's blocks. */
-static lmb_status set_others(collector *c, int others, int32_t column, int32_t row, const float *power)
+/* Slots of the points of a tile's other surfaces. */
+static lmb_live_point *others_of(const collector *c, int32_t column, int32_t row)
 {
     const lmb_live *live = c->live;
     const size_t tiles = (size_t)((c->side + LMB_TILE - 1) / LMB_TILE),
                  tile = (size_t)(row / LMB_TILE) * tiles + (size_t)(column / LMB_TILE);
-    lmb_live_point *to = live->point + (size_t)live->face_cap * (size_t)live->side * (size_t)live->side +
-                         LIVE_SURFACES * ((size_t)c->into * live_tiles(live->side) + tile);
+    return live->point + (size_t)live->face_cap * (size_t)live->side * (size_t)live->side +
+           LIVE_SURFACES * ((size_t)c->into * live_tiles(live->side) + tile);
+}
+
+/* Stores the points of all other surfaces of a tile's blocks. */
+static lmb_status set_others(collector *c, int others, int32_t column, int32_t row, const float *power)
+{
+    lmb_live_point *to = others_of(c, column, row);
     lmb_status status = LMB_OK;
     int count = 0;
     for (int q = 0; q < OTHERS && others > 0 && status == LMB_OK; ++q) {
@@ -426,6 +433,7 @@ static lmb_status collect_tile(collector *c, int32_t column, int32_t row)
     for (int32_t y = 0; y < LMB_TILE && row + y < c->side; ++y) {
         set_powers(power + y * LMB_TILE, c, column, row + y);
     }
+    c->rest = (uint16_t (*)[LMB_TILE_PIXELS])(void *)(others_of(c, column, row) + LIVE_SURFACES - REST);
     const lmb_status status = resolve_blocks(&others, c, column, row, power);
     for (int n = 0; n < LMB_TILE_PIXELS / (NEXT * NEXT) && status == LMB_OK; ++n) {
         const int k = n / (LMB_TILE / NEXT) * NEXT * LMB_TILE + n % (LMB_TILE / NEXT) * NEXT;

@@ -107,9 +107,7 @@ float lmb_live_softness(const lmb_live *live, const lmb_live_point *p)
 
 float lmb_live_reach2(const lmb_live *live, const lmb_live_point *p)
 {
-    /* Parts of one surface may lie anywhere in the block. */
-    return p->face == LMB_LIVE_ELEMENT ? maxf(p->area, live->element[live_element_of(p)].reach2)
-                                       : p->area;
+    return p->face == LMB_LIVE_ELEMENT ? maxf(p->area, live->element[live_element_of(p)].reach2) : p->area;
 }
 
 int lmb_live_is_whole(const lmb_live *live, const lmb_live_point *p)

@@ -8,6 +8,7 @@
 #include "../common/io_file.h"
 #include "../common/progress.h"
 #include "../model/io_lmt.h"
+#include "../picture/world_read.h"
 #include "../render/budget.h"
 #include "../render/render_world.h"
 #include "../render/verb_render.h"
@@ -30,6 +31,7 @@ int lmt_open(lmb_transfer *out, const file_bytes *file, const char *path, report
     (void)out, (void)file, (void)path;
     return fail(r);
 }
+int world_hash(uint64_t *hash, const char *path, report *r) { (void)hash, (void)path; return fail(r); }
 int world_sky(world *out, report *r) { (void)out; return fail(r); }
 int world_read(world *out, const char *path, int is_quiet, report *r)
 {

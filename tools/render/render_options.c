@@ -8,7 +8,6 @@
 #include "../common/option_value.h"
 #include "../common/options.h"
 #include "../picture/picture.h"
-#include "../picture/world_read.h"
 #include "light_stream.h"
 
 enum { CHOSEN = -1 }; /* from other options */
@@ -482,13 +481,4 @@ int render_options_parse(render_options *o, int argc, char **argv, report *r)
         return asked;
     }
     return check_verb(o, plans, r) && check_slice(o, r) && render_options_complete(o, r) ? OPTIONS_RUN : OPTIONS_BAD;
-}
-
-int render_options_job(render_options *inout, const option_table *t, int argc, char **argv, report *r)
-{
-    const char *world = inout->world;
-    const int is_file = world != NULL && strcmp(world, "sky") != 0 && strcmp(world, "none") != 0;
-    return inout->slice.count == 0 ||
-           (slice_job(&inout->slice_job, inout, t, argc, argv, r) &&
-            (!is_file || world_hash(&inout->slice_job, world, r)));
 }

@@ -7,9 +7,19 @@
 
 #include "../common/io_bytes.h"
 #include "../picture/picture.h"
+#include "../picture/world_read.h"
 
 /* Data in a slice besides the light. */
 enum { HAS_EMITTED = 1, HAS_COVER = 2, HAS_OWN = 4, HAS_UNLIT = 8 };
+
+int render_options_job(render_options *inout, const option_table *t, int argc, char **argv, report *r)
+{
+    const char *around = inout->world;
+    const int is_file = around != NULL && strcmp(around, "sky") != 0 && strcmp(around, "none") != 0;
+    return inout->slice.count == 0 ||
+           (slice_job(&inout->slice_job, inout, t, argc, argv, r) &&
+            (!is_file || world_hash(&inout->slice_job, around, r)));
+}
 
 static int rows_of(const exposure_view *v, int32_t band)
 {
