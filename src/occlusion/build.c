@@ -615,7 +615,7 @@ static float fill_in_order(lmb_bvh *b, uint32_t at, uint32_t part, int is_last, 
 
 static uint32_t sixteenths(uint32_t n) { return (n + LMB_BOXES - 1) / LMB_BOXES; }
 
-void lmb_bvh_build_in_order(lmb_bvh *inout, const lmb_scene *scene)
+int lmb_bvh_build_in_order(lmb_bvh *inout, const lmb_scene *scene)
 {
     uint32_t many[LMB_TRAVERSAL_LEVELS + 1], levels = 1; /* nodes of a level, from the last one up to the root */
     float area = 0.0f;
@@ -624,11 +624,11 @@ void lmb_bvh_build_in_order(lmb_bvh *inout, const lmb_scene *scene)
     inout->hull.count = 0;
     inout->scene = scene;
     if (lmb_scene_triangles(scene) > inout->triangle_cap) {
-        return;
+        return 1;
     }
     take_in_order(inout, scene);
     if (inout->triangle_count == 0) {
-        return;
+        return 1;
     }
     const uint32_t leaves = (inout->triangle_count + MAX_LEAF_TRIANGLES - 1) / MAX_LEAF_TRIANGLES;
     for (many[0] = sixteenths(leaves); many[levels - 1] > 1; ++levels) {
@@ -648,9 +648,7 @@ void lmb_bvh_build_in_order(lmb_bvh *inout, const lmb_scene *scene)
     const item_span all = span_of_node(inout->node);
     inout->margin = half_box_margin(vec3(all.low[0], all.low[1], all.low[2]),
                                     vec3(all.high[0], all.high[1], all.high[2]));
-    if (area > MAX_ORDERED_AREA * half_area(&all)) {
-        (void)lmb_bvh_build(inout, scene);
-    }
+    return area <= MAX_ORDERED_AREA * half_area(&all);
 }
 
 #endif
