@@ -86,8 +86,9 @@
 #define LMB_FACETS LMB_TREES
 #endif
 
-/* Frames with LMB_SHOW_DIRECT of at most this many triangles trace the lit pixels that shadow maps doubt, in builds
- * with LMB_FACETS, for 116 bytes a triangle. In larger scenes, sealed rooms may show lit pixels. 0: never. */
+/* If frame.bvh has room for at most this many triangles, frames with LMB_SHOW_DIRECT trace the lit pixels around which
+ * shadow maps show other triangles, in builds with LMB_FACETS. lmb_frame_init adds that room, 116 bytes a triangle, for
+ * scenes of at most this size. In larger scenes, sealed rooms may show lit pixels. 0: never. */
 #ifndef LMB_TRACED_TRIANGLES
 #define LMB_TRACED_TRIANGLES 16384u
 #endif

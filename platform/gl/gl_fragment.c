@@ -424,7 +424,7 @@ static int fragment_is_out(const gl_context *c, int is_line, int is_area, int32_
 
 /* --- pixels by lanes ---------------------------------------------------------------------------------------------- */
 
-/* Returns whether gl_wide.h knows a unit: 2D textures of any filter and wrap in the classic environments. */
+/* Returns 1 if gl_wide.h has the kind of a unit: 2D textures of any filter and wrap in the classic environments. */
 static int fragment_unit_is_wide(const gl_texture *t, const gl_unit *u)
 {
     const gl_image *m = &t->image[0][t->base_level];

@@ -1,6 +1,6 @@
 /* draw_area.inl: all tiles of a triangle in one call, LANES pixels at a time. Layer 4.
  *
- * Values equal those of draw_shape.c and draw_tile.c. What the tiles share is set up once for the triangle. With a
+ * Values equal those of draw_shape.c and draw_tile.c. Values of all tiles are set up once for the triangle. With a
  * texture or fog, colours take a call per tile, so that they do not share their stack with the edges. */
 
 #if !defined(LANE_PLAIN)

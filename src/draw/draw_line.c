@@ -27,7 +27,7 @@ typedef struct line_way {
     int64_t length, rise;
 } line_way;
 
-/* What the pixels of a line share. */
+/* The parts of a line that all of its pixels use. */
 typedef struct line_job {
     const lmb_draw_pass *pass;
     lmb_draw_plane n1, q, d;

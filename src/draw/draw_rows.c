@@ -65,7 +65,7 @@ static int rows_lanes_sample(const lmb_draw_state *s)
     return good;
 }
 
-/* 1: a kernel knows how this state colours: at most one texture, which replaces or modulates; opaque or blended by
+/* 1: a kernel has the colours of this state: at most one texture, which replaces or modulates; opaque or blended by
  * alpha. */
 static int rows_are_usual(const lmb_draw_pass *pass)
 {

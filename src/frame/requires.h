@@ -161,10 +161,20 @@ static inline int requires_full_bvh(const lmb_frame *f)
            (f->many_lights != NULL && f->bvh.triangle != NULL);
 }
 
-/* Or only for the lit pixels that shadow maps doubt? They are few, so a BVH that is built fast does. */
-static inline int requires_bvh(const lmb_frame *f)
+/* Is there memory for a BVH of few triangles? */
+static inline int has_small_bvh(const lmb_frame *f)
 {
-    return requires_full_bvh(f) || (LMB_FACETS && f->show == LMB_SHOW_DIRECT && f->bvh.triangle != NULL);
+    return LMB_FACETS && f->bvh.triangle != NULL && f->bvh.triangle_cap <= LMB_TRACED_TRIANGLES;
+}
+
+/* Is a BVH built? If it is small, also for a frame that does not use it, because the next picture of the same light may
+ * show only direct light. */
+static inline int requires_bvh(const lmb_frame *f) { return requires_full_bvh(f) || has_small_bvh(f); }
+
+/* Are lit pixels traced around which shadow maps show other triangles? */
+static inline int requires_traced(const lmb_frame *f)
+{
+    return (requires_full_bvh(f) || (f->show == LMB_SHOW_DIRECT && has_small_bvh(f))) && f->bvh.node_count > 0;
 }
 
 /* The BVH that occludes light of single points, or NULL; and the counts of a thread. */

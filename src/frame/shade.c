@@ -110,7 +110,7 @@ lmb_status lmb_render_direct(const lmb_render *r, lmb_glossy *glossy, lmb_band_s
             continue;
         }
 #if LMB_FACETS
-        if (requires_bvh(f) && f->bvh.node_count > 0) {
+        if (requires_traced(f)) {
             status = add_tight(glossy, s, r, &lit, i);
             continue;
         }

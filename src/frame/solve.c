@@ -65,6 +65,7 @@ static lmb_status step_bvh(lmb_render *r)
         return LMB_OK;
     }
 #if LMB_FACETS
+    /* Few segments are traced, so a fast build is best. */
     if (!requires_full_bvh(f) && lmb_bvh_build_in_order(&f->bvh, f->scene)) {
         return LMB_OK;
     }

@@ -18,7 +18,7 @@ enum {
     BLOCK = 4,
     LARGE_BLOCK = 8,
     OTHERS = 3, /* further points of a block that is not flat */
-    REST = 7,   /* slots of a tile's further points that hold collector.rest before */
+    REST = 7,   /* the last slots of a tile's further points: they hold collector.rest, and never a point */
     WIDE = 2,   /* blocks a side that are joined, */
     NEXT = 4,   /* if so many a side are alike: light is finest at edges */
     FACETS = 8, /* that are kept */
@@ -98,6 +98,8 @@ static lmb_status set_face(lmb_live_face *out, const lmb_live *live, const lmb_s
     out->light = light;
     return side_by(map->size, each) > live->side ? LMB_ERR_CAPACITY : LMB_OK;
 }
+
+typedef char rest_fits[OTHERS * LMB_TILE_PIXELS * 2 <= REST * sizeof(lmb_live_point) ? 1 : -1];
 
 /* --- a tile of blocks --------------------------------------------------------------------------------------------- */
 
@@ -419,9 +421,7 @@ static lmb_status set_others(collector *c, int others, int32_t column, int32_t r
     for (int q = 0; q < OTHERS && others > 0 && status == LMB_OK; ++q) {
         status = set_other(&count, to, c, column, row, q, power);
     }
-    if (count < LIVE_SURFACES) {
-        memset(&to[count], 0, sizeof *to);
-    }
+    memset(&to[count], 0, sizeof *to);
     return status;
 }
 

@@ -166,7 +166,9 @@ printf 'newmtl shiny\nKd .5 .5 .5\nKs .3 .3 .3\nNs 50\n' >shiny.mtl
 # The segments that keep the corners of a coarse map dark are counted.
 status 0 render large.obj $large --world none --size 96x96 --shadow-map 64 --tree 8 -o closed.pfm --stats corners.json
 check "stats count no segments of corners" test "$(count corners.json corner_segments)" -gt 0
-status 0 render large.obj $large --world none --size 96x96 --show direct -o closed.pfm --stats corners.json
+status 0 render large.obj $large --world none --size 96x96 --show direct -o closed.pfm
+status 0 render large.obj $large --world none --size 96x96 --shadow-map 64 --show direct -o coarse.pfm --stats corners.json
+check "stats count them for direct light" test "$(count corners.json corner_segments)" -gt 0
 status 0 info closed.pfm
 check "direct light only: light in the corner of a closed room: $(grep red out.txt)" awk '
     $1 == "red" { dark = $5 == 0 } END { exit !dark }' out.txt

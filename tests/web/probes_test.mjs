@@ -45,6 +45,29 @@ check('a probe behind the surface counts less', [+(redShare([1.5, 0, 0], [1, 0, 
 put(0, 27, 0);
 check('a probe in a solid does not count', [+(redShare([1.2, 0, 0], [0, 1, 0]) < 1e-2)], [1]);
 
+// A wall 1 m from the first probe, on one side of it, in the layout of tools/bake/light_distances.h.
+put(0, 27, 1);
+for (const [axis, way] of [[0, 1], [1, 1], [1, -1], [2, 1], [2, -1]]) {
+    for (let t = 0; t < 96; ++t) {
+        const face = t >> 4, a = face >> 1, d = [0, 0, 0];
+        d[a] = face & 1 ? -1 : 1;
+        d[(a + 1) % 3] = (2 * (t & 3) + 1) / 4 - 1;
+        d[(a + 2) % 3] = (2 * (t >> 2 & 3) + 1) / 4 - 1;
+        const inverse = Math.max(d[axis] * way, 0);
+        put(0, 28 + 2 * t, inverse); put(0, 29 + 2 * t, inverse * inverse);
+        put(1, 28 + 2 * t, 0); put(1, 29 + 2 * t, 0);
+    }
+    const place = (far) => [1.4, 0.2, -0.3].map((v, c) => v + (c === axis ? far * way : 0)), up = [0, 0, 0].map((v, c) => +(c === (axis + 1) % 3));
+    check(`the wall of axis ${axis}, ${way}: beyond it`, [+(redShare(place(1.5), up) < 0.02)], [1]);
+    const other = axis === 1 ? 2 : 1, aside = (far, by) => place(far).map((v, c) => v + (c === other ? by : 0));
+    for (const by of [-2.2, 2.2]) {
+        check(`the wall of axis ${axis}, ${way}: beyond it, ${by} m aside`, [+(redShare(aside(1.8, by), up) < 0.1)], [1]);
+        check(`the wall of axis ${axis}, ${way}: on the other side, ${by} m aside`, [+(redShare(aside(-1.8, by), up) > 0.2)], [1]);
+    }
+    check(`the wall of axis ${axis}, ${way}: before it`, [+(redShare(place(0.3), up) > 0.25)], [1]);
+    check(`the wall of axis ${axis}, ${way}: on the other side`, [+(redShare(place(-1.5), up) > 0.25)], [1]);
+}
+
 const file = process.argv[2], air = JSON.parse(fs.readFileSync(file)), all = fs.readFileSync(file.replace(/\.json$/, '.bin'));
 const probes = openProbes(air, all.buffer.slice(all.byteOffset, all.byteOffset + all.length));
 const middle = air.first.map((v, k) => v + air.step[k] * (air.count[k] - 1) / 2);

@@ -260,7 +260,8 @@ static int write_both(const char *path, const lattice *l, report *r)
         "  \"layout\": \"little-endian binary32: 9 harmonics l l + l + m of radiance, R G B each, W/(sr m2); "
         "then the share of directions that show a lit surface, 0 .. 1: under %g the place lies in a solid and "
         "has its neighbours' harmonics; then a cube map of six faces of %d x %d texels: mean of 1 / distance to "
-        "surfaces along the face's axis, and mean of its square, 1/m, 1/m2\",\n"
+        "surfaces along the face's axis, and mean of its square, 1/m, 1/m2; faces +x -x +y -y +z -z, a direction d is "
+        "at 0.5 + 0.5 (d[a + 1], d[a + 2]) / |d[a]| of the square of its longest axis a, and after z comes x\",\n"
         "  \"irradiance\": \"sum of harmonic x Y(normal) x 3.141593 for l = 0, 2.094395 for l = 1, 0.785398 for "
         "l = 2, at least 0; W/m2\"\n}\n",
         (double)l->first.x, (double)l->first.y, (double)l->first.z, (double)l->step.x, (double)l->step.y,
