@@ -228,7 +228,7 @@ typedef struct lmb_render {
     int32_t emits;               /* 1 if a material emits light */
     int32_t is_glossy;           /* 1 if a material has a lobe, in builds with trees */
     int32_t is_unlit;            /* 1 if a material is LMB_UNLIT */
-    uint32_t skips, reuses;      /* LMB_SKIP_*, LMB_REUSE_* */
+    uint32_t skips, reuses;      /* LMB_SKIP_*, LMB_REUSE_*; the highest bit of reuses: the BVH was built fast */
     float dimmed;                /* upper bound of the radiance that is missing because dim lights do not bounce */
     uint8_t light_state[LMB_MAX_LIGHTS]; /* LMB_LIGHT_*, bits */
     uint32_t revision, lights_revision, appearance_revision, light_revision[LMB_MAX_LIGHTS]; /* of what was drawn */

@@ -131,7 +131,8 @@ static int is_solved(const lmb_frame *f, const lmb_render *r)
         return 0; /* elements were lit by the other tree */
     }
     return (!requires_bounce(f) || requires_bounce(before)) && (same || !requires_bounce(f) || !requires_elements(r)) &&
-           (!exact || before->occlusion == LMB_OCCLUSION_EXACT || before->bvh.node_count > 0);
+           (!exact || before->occlusion == LMB_OCCLUSION_EXACT ||
+            (before->bvh.node_count > 0 && !(LMB_FACETS && (r->reuses & BUILT_FAST) != 0)));
 }
 
 lmb_status lmb_render_again(lmb_render *r, const lmb_frame *frame)

@@ -171,6 +171,9 @@ static inline int has_small_bvh(const lmb_frame *f)
  * show only direct light. */
 static inline int requires_bvh(const lmb_frame *f) { return requires_full_bvh(f) || has_small_bvh(f); }
 
+/* In lmb_render.reuses: the BVH is that of has_small_bvh, built fast. LMB_OCCLUSION_EXACT needs the other one. */
+#define BUILT_FAST 0x80000000u
+
 /* Are lit pixels traced around which shadow maps show other triangles? */
 static inline int requires_traced(const lmb_frame *f)
 {

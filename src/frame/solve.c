@@ -61,12 +61,16 @@ static lmb_status step_shadow_map(lmb_render *r, int32_t units)
 static lmb_status step_bvh(lmb_render *r)
 {
     lmb_frame *f = &r->frame;
+#if LMB_FACETS
+    const int fast = requires_bvh(f) && !requires_full_bvh(f);
+    r->reuses = fast ? r->reuses | BUILT_FAST : r->reuses & ~BUILT_FAST;
+#endif
     if (!requires_bvh(f) || reuses(r, LMB_REUSE_BVH)) {
         return LMB_OK;
     }
 #if LMB_FACETS
     /* Few segments are traced, so a fast build is best. */
-    if (!requires_full_bvh(f) && lmb_bvh_build_in_order(&f->bvh, f->scene)) {
+    if (fast && lmb_bvh_build_in_order(&f->bvh, f->scene)) {
         return LMB_OK;
     }
 #endif

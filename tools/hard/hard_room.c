@@ -212,8 +212,8 @@ static void look_through_gap(through_gap *out, hard_stage *h, double gap, uint64
     }
     put_level(h, &r, -8, 8, -8, 8, 0);
     hard_sun(h, dvec_of(sin(turn) * cos(low), -sin(low), -cos(turn) * cos(low)), 10.0);
-    hard_look(h, dvec_of(hard_uniform(&rng, -1, 1), hard_uniform(&rng, 0.3, 1.5), hard_uniform(&rng, -1.2, 0)),
-              dvec_of(0, 0, 1.45), 60.0, SIDE);
+    const double z = hard_uniform(&rng, -1.2, 0), y = hard_uniform(&rng, 0.3, 1.5), x = hard_uniform(&rng, -1, 1);
+    hard_look(h, dvec_of(x, y, z), dvec_of(0, 0, 1.45), 60.0, SIDE);
     h->view.near_m = 0.01f;
     if (!hard_end(h) || hard_frame(h, LMB_SHOW_DIRECT, HARD_MAP, 0.05f) != LMB_OK) {
         out->lost = HUGE_VAL;

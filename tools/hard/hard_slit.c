@@ -101,8 +101,8 @@ static void measure(slit_error *out, hard_stage *h, double wide, uint64_t seed, 
     static double want[SIDE * SIDE], got[SIDE * SIDE];
     int count = 0;
     make_slit(&s, h, wide, &rng);
-    hard_look(h, put(&s, hard_uniform(&rng, 3.4, 3.8), 1.6, hard_uniform(&rng, 0.3, 2.7)), put(&s, 0.6, 0.7, 1.5), 75,
-              SIDE);
+    const double z = hard_uniform(&rng, 0.3, 2.7), x = hard_uniform(&rng, 3.4, 3.8);
+    hard_look(h, put(&s, x, 1.6, z), put(&s, 0.6, 0.7, 1.5), 75, SIDE);
     h->tree_size = TREE;
     h->gather_step = gather_step;
     const lmb_status status = hard_frame(h, LMB_SHOW_INDIRECT, MAP, 0.02f);
