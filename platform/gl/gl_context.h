@@ -294,7 +294,6 @@ typedef struct gl_context {
     lmb_draw_target target;
     lmb_texture draw_texture;
     void (*wide)(uint8_t out[64][4], const struct gl_wide_job *job, uint64_t mask); /* gl_wide.h's; NULL: none */
-    struct gl_shade *shade;
     int32_t shades;      /* 1: the shader colours */
     int32_t bounces;     /* 1: with bounced light */
     int32_t draws;       /* 0: there is no target */
