@@ -157,7 +157,7 @@ typedef struct lmb_transfer_kept {
     lmb_transfer_triangle triangle[LMB_TRANSFER_KEPT];
 } lmb_transfer_kept;
 
-/* A halving on the way to a leaf. The weight of its corner k is weight[0][k] + weight[1][k] b1 + weight[2][k] b2. */
+/* A halving on the way to a leaf. The weight of its corner k is weight[k][0] + weight[k][1] b1 + weight[k][2] b2. */
 typedef struct lmb_transfer_step {
     float weight[3][3];
     float side[3];      /* over 0 at points of the next step; or 0, in a first half */

@@ -72,10 +72,13 @@ typedef struct transfer_half {
 
 static inline transfer_half half_of(const transfer_halving *h, int second)
 {
-    const int to = halving_to(h->from);
-    const transfer_half first = {h->from, to, h->ratio, 1.0f / h->part};
-    const transfer_half last = {to, h->from, 1.0f / h->ratio, 1.0f / (1.0f - h->part)};
-    return second ? last : first;
+    const int to = halving_to(h->from), is_cut = h->part != 0.5f;
+    transfer_half half = {second ? to : h->from, second ? h->from : to, 1.0f, 2.0f};
+    if (is_cut) {
+        half.less = second ? 1.0f / h->ratio : h->ratio;
+        half.more = 1.0f / (second ? 1.0f - h->part : h->part);
+    }
+    return half;
 }
 
 #endif

@@ -36,9 +36,8 @@ static uint64_t KERNEL(transfer_side)(float weight[2][LMB_TILE_PIXELS], const lm
 /* Weight of a leaf's corner at pixels of the triangle. */
 LANE_INLINE lane leaf_weight(const lmb_transfer_leaf *leaf, int corner, lane b1, lane b2)
 {
-    const float(*by)[3] = leaf->weight;
-    return lane_add(lane_add(lane_splat(by[0][corner]), lane_mul(lane_splat(by[1][corner]), b1)),
-                    lane_mul(lane_splat(by[2][corner]), b2));
+    const float *by = leaf->weight[corner];
+    return lane_add(lane_add(lane_splat(by[0]), lane_mul(lane_splat(by[1]), b1)), lane_mul(lane_splat(by[2]), b2));
 }
 
 /* Interpolates number c of the corners. */

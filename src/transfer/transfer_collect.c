@@ -124,7 +124,10 @@ static const lmb_transfer_shown *shown(const collection *c, uint32_t id)
 
 static float value(const float f[3], float x, float y) { return f[0] + f[1] * x + f[2] * y; }
 
-/* --- ids of cells ------------------------------------------------------------------------------------------------- */
+/* --- ids of blocks and cells -------------------------------------------------------------------------------------- */
+
+/* The one id that a block's cells show; LMB_TRANSFER_NONE if they show several. */
+static uint32_t *block_id(const collection *c, int32_t x, int32_t y) { return &c->work->block_id[y + 1][x + 1]; }
 
 /* Address of the eight adjacent ids that contain x. */
 static const uint8_t *ids_at(const collection *c, int32_t x, int32_t y)
@@ -179,20 +182,47 @@ static void enter_lit_half(lmb_transfer_part *p, const transfer_halving *h, int 
 
 /* --- walls -------------------------------------------------------------------------------------------------------- */
 
+/* The side of a line that the middle of a block's cell lies on: 1 or 2. */
+static uint32_t side_of_cell(const collection *c, const float line[3], int32_t x, int32_t y, int32_t column,
+                             int32_t row)
+{
+    const float per = 1.0f / (float)c->cells;
+    const float at_x = (float)x + ((float)column + 0.5f) * per - 0.5f,
+                at_y = (float)y + ((float)row + 0.5f) * per - 0.5f;
+    return value(line, at_x, at_y) < 0.0f ? 2u : 1u;
+}
+
+/* The sides of a line on which one block shows the triangle, at cell middles: one bit for each side. The block lies
+ * `across` and `down` of block (x, y). If it shows only the triangle, the four corner cells decide: along a row or column
+ * the line's function never turns, also when rounded. */
+static uint32_t sides_of_block(const collection *c, uint32_t id, const float line[3], int32_t x, int32_t y,
+                               int32_t across, int32_t down)
+{
+    const uint32_t only = *block_id(c, x + across, y + down);
+    const int32_t left = across * c->cells, top = down * c->cells, last = c->cells - 1;
+    uint32_t sides = 0;
+    if (only != LMB_TRANSFER_NONE) {
+        return only != id ? 0u
+                          : side_of_cell(c, line, x, y, left, top) | side_of_cell(c, line, x, y, left + last, top) |
+                                side_of_cell(c, line, x, y, left, top + last) |
+                                side_of_cell(c, line, x, y, left + last, top + last);
+    }
+    for (int32_t k = 0; k < c->cells * c->cells && sides != 3; ++k) {
+        const int32_t column = left + k % c->cells, row = top + k / c->cells;
+        if (cell_id(c, x, y, column, row) == id) {
+            sides |= side_of_cell(c, line, x, y, column, row);
+        }
+    }
+    return sides;
+}
+
 /* Which sides of a line does the triangle appear on, at cell middles of a block and the blocks around it? One bit for
  * each side. */
 static uint32_t sides_shown(const collection *c, uint32_t id, const float line[3], int32_t x, int32_t y)
 {
-    const float per = 1.0f / (float)c->cells;
     uint32_t sides = 0;
-    for (int32_t row = -c->cells; row < 2 * c->cells && sides != 3; ++row) {
-        for (int32_t column = -c->cells; column < 2 * c->cells && sides != 3; ++column) {
-            if (cell_id(c, x, y, column, row) == id) {
-                const float at_x = (float)x + ((float)column + 0.5f) * per - 0.5f,
-                            at_y = (float)y + ((float)row + 0.5f) * per - 0.5f;
-                sides |= value(line, at_x, at_y) < 0.0f ? 2u : 1u;
-            }
-        }
+    for (int32_t i = 0; i < 9 && sides != 3; ++i) {
+        sides |= sides_of_block(c, id, line, x, y, i % 3 - 1, i / 3 - 1);
     }
     return sides;
 }
@@ -326,10 +356,15 @@ static void collect_sharer(const collection *c, const lmb_transfer_sharer *from)
 {
     const float range2 = light_range2(c->from);
     lmb_transfer_part *p = c->light->part;
-    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        p->light[k] = (float)(int32_t)(minf(from->share[k], 1.0f) * c->work->power[k]);
-        if (range2 > 0.0f && p->light[k] > 0.0f) {
-            p->light[k] = (float)(int32_t)(p->light[k] * left_by_range(c, from, k, range2));
+    for (uint32_t rows = from->rows; rows != 0; rows &= rows - 1) {
+        const int first = LMB_TILE * lowest_bit_64(rows);
+        for (int k = first; k < first + LMB_TILE; ++k) {
+            p->light[k] = (float)(int32_t)(minf(from->share[k], 1.0f) * c->work->power[k]);
+        }
+        for (int k = first; k < first + LMB_TILE && range2 > 0.0f; ++k) {
+            if (p->light[k] > 0.0f) {
+                p->light[k] = (float)(int32_t)(p->light[k] * left_by_range(c, from, k, range2));
+            }
         }
     }
     p->rows = from->rows;
@@ -384,7 +419,7 @@ static void add_block_share(const collection *c, uint32_t id, int block, float s
     }
 }
 
-/* --- ids of blocks ------------------------------------------------------------------------------------------------ */
+/* --- reading ids -------------------------------------------------------------------------------------------------- */
 
 /* Adds an id unless it is present. */
 static void add_id(lmb_transfer_several *to, uint32_t id)
@@ -406,8 +441,6 @@ static lmb_transfer_several *several_of(const collection *c, int32_t x, int32_t 
 {
     return &c->work->several[(y + 1) % 3][x + 1];
 }
-
-static uint32_t *block_id(const collection *c, int32_t x, int32_t y) { return &c->work->block_id[y + 1][x + 1]; }
 
 /* Reads the ids of a block. `row` points to the rows of eight texels that contain the block, which starts at texel
  * `in`; if `row` is NULL, any block is read. */
@@ -709,6 +742,7 @@ lmb_status lmb_transfer_collect(const lmb_transfer_light *light, const lmb_kerne
                     {0, 0}};
     memset(c.work->shown, 0, sizeof c.work->shown);
     memset(c.work->outline, 0, sizeof c.work->outline);
+    memset(light->part[0].light, 0, sizeof light->part[0].light); /* a kernel reads two rows if one has light */
     c.work->sharers = 0;
     for (int32_t y = first; y < past; ++y) {
         if (y % LMB_TILE != LMB_TILE - 1 && y != blocks.size - 1) {

@@ -36,28 +36,32 @@ static float weight_at(const float w[3], float b1, float b2) { return w[0] + w[1
  * doubled because that corner is now the middle of the edge. All these numbers are whole, except in cuts. */
 static void enter_pixel_half(lmb_transfer_step *s, const transfer_halving *h, float b1, float b2)
 {
-    const int from = h->from, to = halving_to(from), other = 3 - from - to;
+    const int other = 3 - h->from - halving_to(h->from);
+    const float *from = s->weight[h->from], *to = s->weight[halving_to(h->from)];
     float more[3];
     for (int c = 0; c < 3; ++c) {
-        more[c] = s->weight[c][from] - h->ratio * s->weight[c][to];
+        more[c] = from[c] - h->ratio * to[c];
     }
     s->second = weight_at(more, b1, b2) < 0.0f;
     const transfer_half half = half_of(h, s->second);
+    const float *moves = s->weight[half.moves];
+    float *kept = s[1].weight[half.keeps], *moved = s[1].weight[half.moves];
     for (int c = 0; c < 3; ++c) {
         s->side[c] = s->second ? -more[c] : more[c];
-        s[1].weight[c][half.keeps] = s->second ? half.less * s->side[c] : s->side[c];
-        s[1].weight[c][half.moves] = half.more * s->weight[c][half.moves];
-        s[1].weight[c][other] = s->weight[c][other];
+        kept[c] = s->second ? half.less * s->side[c] : s->side[c];
+        moved[c] = half.more * moves[c];
+        s[1].weight[other][c] = s->weight[other][c];
     }
     s[1].at = h->first + (uint32_t)s->second;
 }
 
-/* Returns 0 if cuts in a damaged file have made the weights too large. */
+/* Returns 0 if cuts in a damaged file have made the weights too large. Halvings without a cut only double them, so they
+ * need no check. */
 static int are_weights(const lmb_transfer_step *s)
 {
     float sum = 0.0f;
     for (int c = 0; c < 3; ++c) {
-        sum += absf(s->weight[c][0]) + absf(s->weight[c][1]) + absf(s->weight[c][2]);
+        sum += absf(s->weight[0][c]) + absf(s->weight[1][c]) + absf(s->weight[2][c]);
     }
     return sum < 1e18f;
 }
@@ -80,7 +84,7 @@ static uint32_t shared_steps(const lmb_transfer_met *s, float b1, float b2)
 static uint32_t enter_leaf(lmb_transfer_met *s, const lmb_transfer *t, uint32_t root, float b1, float b2)
 {
     const uint32_t *node = t->section[LMB_TRANSFER_DIVISIONS];
-    static const float whole[3][3] = {{1, 0, 0}, {-1, 1, 0}, {-1, 0, 1}};
+    static const float whole[3][3] = {{1, -1, -1}, {0, 1, 0}, {0, 0, 1}};
     if (s->root != root + 1) {
         s->root = root + 1;
         s->depth = 0;
@@ -93,7 +97,7 @@ static uint32_t enter_leaf(lmb_transfer_met *s, const lmb_transfer *t, uint32_t 
         const transfer_halving h = halving_of(t, word);
         const uint32_t *half = node + h.first, first = half[0], second = half[1];
         enter_pixel_half(&s->step[i], &h, b1, b2);
-        if (!are_weights(&s->step[i + 1])) {
+        if (h.part != 0.5f && !are_weights(&s->step[i + 1])) {
             break;
         }
         word = s->step[i].second ? second : first;

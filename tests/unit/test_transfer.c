@@ -339,6 +339,28 @@ static void collected_by_cuts(float part)
     free(l.memory);
 }
 
+/* A wall on a floor that the light sees on both sides divides the light like any cut: each = 4 and 8 have 4 x 4 cells. */
+static void collected_by_wall(float part, int32_t each)
+{
+    lmb_transfer t;
+    const lmb_shadow_map map = draw_map(&room.scene);
+    float power[2][SMALL_ELEMENTS];
+    for (int is_wall = 0; is_wall < 2; ++is_wall) {
+        CHECK(open_cut(&t, part, is_wall ? LMB_TRANSFER_WALL : 0) == LMB_OK);
+        lit l = lit_by(&t, &room.scene);
+        collect(&l, &map, each, MAP);
+        for (int i = 0; i < SMALL_ELEMENTS; ++i) {
+            power[is_wall][i] = l.light.power[i][0];
+        }
+        free(l.memory);
+    }
+    const float all = power[0][0] + power[0][1];
+    for (int i = 0; i < SMALL_ELEMENTS; ++i) {
+        CHECK_MSG(is_near(power[1][i], power[0][i], 0.01f * all), "element %d, wall at %g, %d: %g, not %g", i,
+                  (double)part, (int)each, (double)power[1][i], (double)power[0][i]);
+    }
+}
+
 /* --- damage ------------------------------------------------------------------------------------------------------- */
 
 /* An element with half of triangle 1, dark, and all of triangle 2, bright: albedos are weighted by area, at any
@@ -1761,6 +1783,9 @@ void test_transfer(void)
     lit_by_cuts(0.9f);
     collected_by_cuts(0.25f);
     collected_by_cuts(0.8f);
+    collected_by_wall(0.3f, 4);
+    collected_by_wall(0.6f, 8);
+    collected_by_wall(0.5f, 1);
     open_small();
     bad_arguments();
     is_same_by(&t, &room.scene);
