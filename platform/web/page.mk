@@ -33,7 +33,7 @@ PAGE_FAST := src/raster/% src/transfer/% src/occlusion/% src/direct/shadow.c
 PAGE_ONCE := src/occlusion/build.c src/occlusion/occlude.c src/raster/texture.c src/raster/bins.c src/raster/cluster.c src/occlusion/occluded.c src/occlusion/hull.c src/occlusion/sun.c \
              $(patsubst %,src/raster/%.c,clip draw draw_one fill lookup paint plane resolve setup target triangle) \
              src/transfer/transfer.c $(patsubst %,src/transfer/transfer_%.c,air collect light many_lights materials send)
-page_opt   = $(or $(PAGE_OPT),$(if $(filter $(PAGE_FAST),$(filter-out $(PAGE_ONCE),$(1))),-O2,-Oz))
+page_opt   = $(or $(PAGE_OPT),$(if $(filter $(PAGE_FAST),$(filter-out $(PAGE_ONCE),$(1))),-O2 -fno-unroll-loops,-Oz))
 
 # $(1): a folder of objects, $(2): flags, $(3): how they are optimised.
 define page_objects
@@ -72,10 +72,10 @@ $(PAGE_WORK)/demo.wasm: $(patsubst %.c,$(PAGE_WORK)/scalar/%.o,tools/demo/demo_s
 	@$(PAGE_LINK) $(PAGE_SIDE)=131072 --export=demo_scene --export=demo_view -o $@ $^ $(PAGE_LIBC)/libm.a \
 	    $(PAGE_LIBC)/libc.a
 
-# Four bits of context suit the large module, three the others, two text.
+# Four bits of context suit the large module; three, and one of position, suit the others; two suit text.
 $(PAGE)/%.wasm.lzma: $(PAGE_WORK)/%.wasm
 	@mkdir -p $(@D)
-	@xz --format=lzma --lzma1=preset=9e,pb=0,lc=$(if $(filter lambent,$*),4,3) -c $< > $@
+	@xz --format=lzma --lzma1=preset=9e,$(if $(filter lambent,$*),pb=0$(comma)lc=4,pb=1$(comma)lc=3$(comma)nice=128) -c $< > $@
 
 # Removes comments and indentation.
 PAGE_BARE := sed -e 's/^ *//' -e '/^\/\/ /d' -e 's|\([;{},)]\)  *// .*|\1|' -e '/^$$/d'

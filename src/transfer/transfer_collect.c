@@ -182,16 +182,6 @@ static void enter_lit_half(lmb_transfer_part *p, const transfer_halving *h, int 
 
 /* --- walls -------------------------------------------------------------------------------------------------------- */
 
-/* The side of a line that the middle of a block's cell lies on: 1 or 2. */
-static uint32_t side_of_cell(const collection *c, const float line[3], int32_t x, int32_t y, int32_t column,
-                             int32_t row)
-{
-    const float per = 1.0f / (float)c->cells;
-    const float at_x = (float)x + ((float)column + 0.5f) * per - 0.5f,
-                at_y = (float)y + ((float)row + 0.5f) * per - 0.5f;
-    return value(line, at_x, at_y) < 0.0f ? 2u : 1u;
-}
-
 /* The sides of a line on which one block shows the triangle, at cell middles: one bit for each side. The block lies
  * `across` and `down` of block (x, y). If it shows only the triangle, the four corner cells decide: along a row or column
  * the line's function never turns, also when rounded. */
@@ -199,18 +189,18 @@ static uint32_t sides_of_block(const collection *c, uint32_t id, const float lin
                                int32_t across, int32_t down)
 {
     const uint32_t only = *block_id(c, x + across, y + down);
-    const int32_t left = across * c->cells, top = down * c->cells, last = c->cells - 1;
+    const float per = 1.0f / (float)c->cells;
+    const int32_t cells = only == id || only == LMB_TRANSFER_NONE ? c->cells : 0,
+                  step = only == id ? maxi(cells - 1, 1) : 1;
     uint32_t sides = 0;
-    if (only != LMB_TRANSFER_NONE) {
-        return only != id ? 0u
-                          : side_of_cell(c, line, x, y, left, top) | side_of_cell(c, line, x, y, left + last, top) |
-                                side_of_cell(c, line, x, y, left, top + last) |
-                                side_of_cell(c, line, x, y, left + last, top + last);
-    }
-    for (int32_t k = 0; k < c->cells * c->cells && sides != 3; ++k) {
-        const int32_t column = left + k % c->cells, row = top + k / c->cells;
-        if (cell_id(c, x, y, column, row) == id) {
-            sides |= side_of_cell(c, line, x, y, column, row);
+    for (int32_t i = 0; i < cells && sides != 3; i += step) {
+        for (int32_t k = 0; k < cells; k += step) {
+            const int32_t column = across * cells + k, row = down * cells + i;
+            if (only == id || cell_id(c, x, y, column, row) == id) {
+                const float at_x = (float)x + ((float)column + 0.5f) * per - 0.5f,
+                            at_y = (float)y + ((float)row + 0.5f) * per - 0.5f;
+                sides |= value(line, at_x, at_y) < 0.0f ? 2u : 1u;
+            }
         }
     }
     return sides;

@@ -36,20 +36,17 @@ static float weight_at(const float w[3], float b1, float b2) { return w[0] + w[1
  * doubled because that corner is now the middle of the edge. All these numbers are whole, except in cuts. */
 static void enter_pixel_half(lmb_transfer_step *s, const transfer_halving *h, float b1, float b2)
 {
-    const int other = 3 - h->from - halving_to(h->from);
-    const float *from = s->weight[h->from], *to = s->weight[halving_to(h->from)];
+    const int from = h->from, to = halving_to(from), other = 3 - from - to;
     float more[3];
     for (int c = 0; c < 3; ++c) {
-        more[c] = from[c] - h->ratio * to[c];
+        more[c] = s->weight[from][c] - h->ratio * s->weight[to][c];
     }
     s->second = weight_at(more, b1, b2) < 0.0f;
     const transfer_half half = half_of(h, s->second);
-    const float *moves = s->weight[half.moves];
-    float *kept = s[1].weight[half.keeps], *moved = s[1].weight[half.moves];
     for (int c = 0; c < 3; ++c) {
         s->side[c] = s->second ? -more[c] : more[c];
-        kept[c] = s->second ? half.less * s->side[c] : s->side[c];
-        moved[c] = half.more * moves[c];
+        s[1].weight[half.keeps][c] = s->second ? half.less * s->side[c] : s->side[c];
+        s[1].weight[half.moves][c] = half.more * s->weight[half.moves][c];
         s[1].weight[other][c] = s->weight[other][c];
     }
     s[1].at = h->first + (uint32_t)s->second;
