@@ -620,6 +620,7 @@ static void build_plan(png_file *f, const char *plan, uint32_t colour)
         case 'p': add_chunk(f, "PLTE", "abcde", 5); break;
         case 't': add_chunk(f, "tRNS", "ab", 2); break;
         case 'T': add_chunk(f, "tRNS", "abc", 3); break;
+        case 'U': add_chunk(f, "tRNS", "abcd", 4); break;
         case 'a': add_chunk(f, "teSt", "abc", 3); break;
         case 'C': add_chunk(f, "TeSt", "abc", 3); break;
         case 'D': add_tiny_data(f); break;
@@ -644,7 +645,7 @@ static void check_png_order(void)
         {"DaDE", 0, "IDAT at byte 72 may not"}, {"HDE", 0, "IHDR at byte 33 may not"},
         {"CDE", 0, "TeSt at byte 33 is not known"}, {"De", 0, "cannot hold 1 bytes"},
         {"DE", 3, "IDAT at byte 33 may not"}, {"pDE", 3, "PLTE at byte 33 cannot hold 5"},
-        {"1QDE", 3, "PLTE at byte 33 cannot hold 9"}, {"PPDE", 3, "PLTE at byte 51 may not"},
+        {"1QDE", 3, NULL}, {"1QTDE", 3, NULL}, {"1QUDE", 3, "tRNS at byte 54 cannot hold 4"}, {"PPDE", 3, "PLTE at byte 51 may not"},
         {"DPE", 3, "IDAT at byte 33 may not"}, {"DPE", 2, "may not"}, {"PDE", 0, "PLTE at byte 33 may not"},
         {"PTDE", 3, "tRNS at byte 51 cannot hold 3"}, {"tPDE", 3, "tRNS at byte 33 may not"},
         {"ttDE", 0, "tRNS at byte 47 may not"}, {"TDE", 0, "tRNS at byte 33 cannot hold 3"}, {"DtE", 0, "may not"},

@@ -973,6 +973,13 @@ static int has_normal(double px, double py, double pz, double x, double y, doubl
     return 0;
 }
 
+/* fo is f by an old name. */
+static void obj_face_outline(void)
+{
+    CHECK_LOADS(load_text("s.obj", ROOF "s 1\nfo 1 2 3 4\nfo 2 5 6 3\n"));
+    CHECK(loaded.scene.meshes[0].vertex_count == 6 && has_normal(0, -1, 1, 0, 0, 1));
+}
+
 static int is_flat(const char *lines)
 {
     CHECK_LOADS(load_text("s.obj", "%s", lines));
@@ -1288,6 +1295,7 @@ void test_models(void)
     obj_colours();
     obj_odd_normals();
     gltf_odd_normals();
+    obj_face_outline();
     obj_smoothing();
     obj_smoothing_corners();
     obj_smoothing_weights();

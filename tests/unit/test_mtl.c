@@ -104,7 +104,7 @@ static void letter_case(void)
     CHECK(m[2].albedo[0] == 0.25f && m[2].alpha == 0.5f && emits(2, 1, 2, 3) && noted("bump or normal map") && noted("mirrors"));
     put("m.mtl", "newmtl A\nKd 1\nmap_kd pic.png\n");
     CHECK_LOADS(load("mtllib m.mtl\nusemtl a\n" FACE "usemtl A\n" FACE));
-    CHECK(noted("no library describes, drawn grey: 1") && noted("pic.png"));
+    CHECK(noted("no library describes, drawn grey: 1 (first: a)") && noted("pic.png"));
 }
 
 static void emission_refuses(void)
@@ -128,11 +128,17 @@ static void opacity(void)
     CHECK_LOADS(load_library("newmtl a\nd 0.5\nd 1\nnewmtl b\nd\nTr\nd none\n"));
     CHECK(notes.count == 0 && loaded.scene.materials[1].alpha == 1);
     CHECK(!(loaded.scene.materials[1].flags & (LMB_ALPHA_BLEND | LMB_ALPHA_MASK)));
+    /* Exporters that write one number for both, in either order. */
+    CHECK_LOADS(load_library("newmtl a\nd 1\nTr 1\nnewmtl b\nTr 1\nd 1\n"));
+    CHECK(notes.count == 0 && loaded.scene.materials[1].alpha == 1 && loaded.scene.materials[2].alpha == 1);
+    CHECK(!(loaded.scene.materials[2].flags & (LMB_ALPHA_BLEND | LMB_ALPHA_MASK)));
+    CHECK_LOADS(load_library("newmtl a\nd -halo 0.25\nnewmtl b\nd -halo\n"));
+    CHECK(noted("by alpha 0.5: 1") && loaded.scene.materials[1].alpha == 0.25f && loaded.scene.materials[2].alpha == 1);
 }
 
 static void maps_left_out(void)
 {
-    static const char *const bumps[] = {"bump", "map_bump", "map_Bump", "norm"};
+    static const char *const bumps[] = {"bump", "map_bump", "map_Bump", "norm", "map_Kn", "map_Norm"};
     char library[64];
     size_t i;
     CHECK_LOADS(load_library("newmtl a\nmap_d x.png\nmap_Ke x.png\nnewmtl b\nmap_d x.png\n"));
@@ -142,6 +148,8 @@ static void maps_left_out(void)
         CHECK_LOADS(load_library(library));
         CHECK_MSG(noted("bump or normal map is left out: 1"), "no note on %s", bumps[i]);
     }
+    CHECK_LOADS(load_library("newmtl a\ndisp x.png\nnewmtl b\ndecal -s 1 1 1 x.png\n"));
+    CHECK(noted("displacement (disp) or decal is left out: 2") && notes.count == 1);
     CHECK_LOADS(load_library("newmtl a\nillum 5\nnewmtl b\nillum 7\nillum 2\nnewmtl c\nillum 1\n"));
     CHECK(noted("mirrors and glasses (illum 3 to 9), drawn without their mirror: 1") && notes.count == 1);
     CHECK_LOADS(load_library("newmtl a\nmap_d\nmap_Ke # none\nbump\nnewmtl b\nmap_Ks x.png\n"));
@@ -196,6 +204,9 @@ static void foreign_picture(void)
     put("x.avif", "    ftypavif");
     CHECK_LOADS(load_library("newmtl a\nmap_Kd x.avif\n"));
     CHECK(noted("this picture is AVIF, which is not read"));
+    put("x.pbm", "P4 8 1\n0");
+    CHECK_LOADS(load_library("newmtl a\nmap_Kd x.pbm\n"));
+    CHECK(noted("this picture is PBM, which is not read"));
     put("x.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n0000");
     CHECK_LOADS(load_library("newmtl a\nmap_Kd x.hdr\n"));
     CHECK(noted("this picture is HDR, linear light"));

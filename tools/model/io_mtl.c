@@ -209,9 +209,17 @@ static int read_map(obj_material *m, model_build *b, cursor *c)
     return 1;
 }
 
-/* d 0 and Tr 1 make a surface invisible; values in between blend. The last statement counts. */
-static void read_opacity(lmb_material *out, obj_material *m, double visible)
+/* d 0 and Tr 1 make a surface invisible; values in between blend. The last d counts, or without a d the last Tr:
+ * some exporters write the same number for both. With -halo the factor grows towards edges and is used as it is. */
+static void read_opacity(lmb_material *out, obj_material *m, int is_d, cursor c)
 {
+    slice token;
+    double v;
+    if (!text_token(&token, &c) || (is_d && slice_is_like(token, "-halo") && !text_token(&token, &c)) ||
+        !slice_number(&v, token) || (!is_d && m->has_d))
+        return;
+    m->has_d |= (uint8_t)is_d;
+    const double visible = is_d ? v : 1 - v;
     m->left_out &= (uint8_t)~OBJ_LEFT_OPACITY;
     if (visible > 0 && visible < 1)
         m->left_out |= OBJ_LEFT_OPACITY;
@@ -236,7 +244,10 @@ static uint8_t left_out_by(slice word, cursor c)
         const char *word;
         uint8_t left_out;
     } known[] = {{"map_d", OBJ_LEFT_OPACITY_MAP}, {"map_Ke", OBJ_LEFT_EMISSION_MAP}, {"bump", OBJ_LEFT_BUMP},
-                 {"map_bump", OBJ_LEFT_BUMP},     {"norm", OBJ_LEFT_BUMP}};
+                 {"map_bump", OBJ_LEFT_BUMP},     {"norm", OBJ_LEFT_BUMP},
+                 {"map_Kn", OBJ_LEFT_BUMP},       {"map_norm", OBJ_LEFT_BUMP},
+                 {"disp", OBJ_LEFT_RELIEF},       {"map_disp", OBJ_LEFT_RELIEF},
+                 {"decal", OBJ_LEFT_RELIEF}};
     slice token;
     size_t i;
     for (i = 0; i < sizeof known / sizeof known[0]; ++i)
@@ -256,8 +267,8 @@ static int read_statement(lmb_material *out, obj_material *m, model_build *b, sl
     if (slice_is_like(word, "map_Kd"))
         return read_map(m, b, c);
     m->left_out |= left_out_by(word, *c);
-    if ((slice_is_like(word, "d") || slice_is_like(word, "Tr")) && text_token(&token, c) && slice_number(&v, token))
-        read_opacity(out, m, slice_is_like(word, "d") ? v : 1 - v);
+    if (slice_is_like(word, "d") || slice_is_like(word, "Tr"))
+        read_opacity(out, m, slice_is_like(word, "d"), *c);
     if (slice_is_like(word, "illum") && text_token(&token, c) && slice_number(&v, token))
         read_illum(m, v);
     return 1;
@@ -370,6 +381,7 @@ void mtl_tell_left_out(model_build *b, const obj_names *names)
                {OBJ_LEFT_MIRROR, "mirrors and glasses (illum 3 to 9), drawn without their mirror"},
                {OBJ_LEFT_SPECTRUM, "materials whose spectrum (Kd or Ke spectral) is left out"},
                {OBJ_LEFT_BUMP, "materials whose bump or normal map is left out"},
+               {OBJ_LEFT_RELIEF, "materials whose displacement (disp) or decal is left out"},
                {OBJ_LEFT_OPTION, "materials whose map_Kd is drawn without its options -t or -mm"}};
     size_t k;
     for (k = 0; k < sizeof all / sizeof all[0]; ++k) {

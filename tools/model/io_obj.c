@@ -108,6 +108,9 @@ static void count_v(census *n, cursor *c)
     }
 }
 
+/* fo is the word for a face in old files; readers treat it as f (appendix B1 of Wavefront's manual). */
+static int is_face(slice word) { return slice_is_like(word, "f") || slice_is_like(word, "fo"); }
+
 static census count_all(cursor c)
 {
     census n;
@@ -122,7 +125,7 @@ static census count_all(cursor c)
             ++n.vt;
         } else if (slice_is_like(word, "vn")) {
             ++n.vn;
-        } else if (slice_is_like(word, "f")) {
+        } else if (is_face(word)) {
             count_face(&n, &c);
         } else if (slice_is_like(word, "usemtl")) {
             ++n.names;
@@ -429,7 +432,7 @@ static int read_line(obj *o, cursor *c)
         return read_vt(o, c);
     if (slice_is_like(word, "vn"))
         return read_vn(o, c);
-    if (slice_is_like(word, "f"))
+    if (is_face(word))
         return read_face(o, c);
     if (slice_is_like(word, "usemtl"))
         use_material(o, c);
@@ -520,6 +523,7 @@ static int is_painted(const obj *o, uint32_t material) { return o->colours && !o
 static int make_materials(obj *o)
 {
     uint32_t i, undefined = 0;
+    slice first = {"", 0};
     model_build *b = o->b;
     b->textures = (lmb_texture *)build_keep(b, o->names.count, sizeof *b->textures);
     if (!build_materials(b, o->names.count) || !b->textures)
@@ -535,10 +539,13 @@ static int make_materials(obj *o)
     }
     if (!load_libraries(o) || !keep_names(o))
         return 0;
-    for (i = 1; i < o->names.count; ++i)
-        undefined += !o->names.items[i].defined;
+    for (i = 1; i < o->names.count; ++i) {
+        if (!o->names.items[i].defined && undefined++ == 0)
+            first = o->names.items[i].name;
+    }
     if (undefined)
-        build_note(b, "materials that no library describes, drawn grey: %u", (unsigned)undefined);
+        build_note(b, "materials that no library describes, drawn grey: %u (first: %.*s)", (unsigned)undefined,
+                   (int)(first.size < 60 ? first.size : 60), first.at);
     for (i = 0; i < o->names.count; ++i)
         if (is_painted(o, i))
             b->materials[i].albedo[0] = b->materials[i].albedo[1] = b->materials[i].albedo[2] = 1.0f;

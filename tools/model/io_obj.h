@@ -20,7 +20,8 @@ enum {
     OBJ_LEFT_BUMP = 8,
     OBJ_LEFT_OPTION = 16,
     OBJ_LEFT_MIRROR = 32,
-    OBJ_LEFT_SPECTRUM = 64
+    OBJ_LEFT_SPECTRUM = 64,
+    OBJ_LEFT_RELIEF = 128
 };
 
 /* A name from usemtl; [0] is for faces before any usemtl. */
@@ -28,7 +29,7 @@ typedef struct obj_material {
     slice name;
     obj_map map;
     uint8_t defined; /* an MTL file describes it */
-    uint8_t has_kd;
+    uint8_t has_kd, has_d;
     uint8_t left_out; /* OBJ_LEFT_ ... */
 } obj_material;
 

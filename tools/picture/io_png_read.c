@@ -32,7 +32,7 @@ typedef struct png_reader {
     int interlaced;
     int split; /* 16-bit greys: both bytes, as red and green */
     uint8_t palette[256][4];
-    uint32_t palette_count;
+    uint32_t palette_count, palette_stored; /* entries that a pixel can show; entries of PLTE */
     int has_key;         /* there was a tRNS chunk */
     uint32_t key[3];     /* the transparent grey or colour */
     size_t first_idat;   /* offset; 0: none yet */
@@ -133,11 +133,13 @@ static int read_header(png_reader *p, const png_chunk *c)
 
 static int read_palette(png_reader *p, const png_chunk *c)
 {
+    const uint32_t most = p->colour == PALETTE ? 1u << p->depth : 256u;
     uint32_t i, count = c->size / 3;
     if (p->colour == GREY || p->colour == GREY_ALPHA || p->palette_count || p->has_key || p->first_idat)
         return misplaced(p, c);
-    if (c->size % 3 != 0 || count < 1 || count > (p->colour == PALETTE ? 1u << p->depth : 256u))
-        return wrong_size(p, c);
+    if (c->size % 3 != 0 || count < 1 || count > 256) return wrong_size(p, c);
+    p->palette_stored = count;
+    count = count < most ? count : most; /* no pixel can show the rest, and other decoders ignore it */
     for (i = 0; i < count; ++i) {
         memcpy(p->palette[i], c->body + 3 * i, 3);
         p->palette[i][3] = 255;
@@ -154,8 +156,8 @@ static int read_transparency(png_reader *p, const png_chunk *c)
     p->has_key = 1;
     if (p->colour == PALETTE) {
         if (!p->palette_count) return misplaced(p, c);
-        if (c->size < 1 || c->size > p->palette_count) return wrong_size(p, c);
-        for (i = 0; i < c->size; ++i) p->palette[i][3] = c->body[i];
+        if (c->size < 1 || c->size > p->palette_stored) return wrong_size(p, c);
+        for (i = 0; i < c->size && i < p->palette_count; ++i) p->palette[i][3] = c->body[i];
         return 1;
     }
     if (c->size != 2 * p->channels) return wrong_size(p, c);

@@ -85,7 +85,13 @@ static const foreign_kind foreign_kinds[] = {
     {"Photoshop", MAGIC("8BPS"), "magick in.psd[0] out.png"},
     {"QOI", MAGIC("qoif"), "magick in.qoi out.png"},
     {"PBM", MAGIC("P1\n"), "pnmtopng in.pbm > out.png"},
+    {"PBM", MAGIC("P1 "), "pnmtopng in.pbm > out.png"},
+    {"PBM", MAGIC("P1\r"), "pnmtopng in.pbm > out.png"},
+    {"PBM", MAGIC("P1\t"), "pnmtopng in.pbm > out.png"},
     {"PBM", MAGIC("P4\n"), "pnmtopng in.pbm > out.png"},
+    {"PBM", MAGIC("P4 "), "pnmtopng in.pbm > out.png"},
+    {"PBM", MAGIC("P4\r"), "pnmtopng in.pbm > out.png"},
+    {"PBM", MAGIC("P4\t"), "pnmtopng in.pbm > out.png"},
 };
 
 /* TGA has no magic at the start, but most files have one at the end. */
