@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "../../tools/model/model_morph.h"
+#include "../../tools/model/model_shape.h"
 #include "../../tools/picture/image.h"
 #include "../../tools/picture/io_png.h"
 #include "../blob.h"
@@ -226,6 +227,81 @@ static void hides(void)
     check_fails(load_gltf(ASSET "\"nodes\":[{\"extensions\":{\"KHR_node_visibility\":{\"visible\":0}}}]}"), "visible");
 }
 
+/* --- instances of a node --- */
+
+#define CROWD(members, attributes)                                                                                   \
+    ASSET "\"extensionsRequired\":[\"EXT_mesh_gpu_instancing\"],\"nodes\":[{\"mesh\":0,\"translation\":[10,0,0],"        \
+          "\"scale\":[2,2,2]," members "\"extensions\":{\"EXT_mesh_gpu_instancing\":{\"attributes\":{" attributes          \
+          "}}}},{}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"targets\":[{\"POSITION\":2}]},"          \
+          "{\"attributes\":{\"POSITION\":2},\"targets\":[{\"POSITION\":2}]}]}],"
+
+/* Numbers 12 to 14 and 4 to 6 of an instance's transform: the place and the Y axis. */
+static int is_placed(uint32_t instance, const double place[3], const double up[3])
+{
+    const float *m = loaded.scene.instances[instance].to_world.m;
+    for (int k = 0; k < 3; ++k)
+        if (!near((double)m[12 + k], place[k]) || !near((double)m[4 + k], up[k]))
+            return 0;
+    return 1;
+}
+
+/* Each place has all primitives. Accessor 4 holds two turns by -90 degrees about X, then one by 90. */
+static void draws_crowds(void)
+{
+    static const double place[3][3] = {{10, 0, 0}, {12, 0, 0}, {10, 2, 0}}, up[3][3] = {{0, 0, -2}, {0, 0, -2}, {0, 0, 2}};
+    CHECK_LOADS(load_gltf(CROWD("", "\"TRANSLATION\":0,\"ROTATION\":4") DATA, data()));
+    CHECK(loaded.scene.instance_count == 6 && loaded.scene.mesh_count == 2);
+    for (uint32_t i = 0; i < loaded.scene.instance_count; ++i)
+        CHECK(is_placed(i, place[i / 2 % 3], up[i / 2 % 3]) && loaded.scene.instances[i].mesh == i % 2);
+    CHECK_LOADS(load_gltf(CROWD("", "\"_ID\":0") DATA, data()));
+    CHECK(loaded.scene.instance_count == 2);
+    CHECK_LOADS(load_gltf(CROWD("\"skin\":0,", "\"TRANSLATION\":0") "\"skins\":[{\"joints\":[1]}]," DATA, data()));
+    CHECK(loaded.scene.instance_count == 2 && noted("skinned nodes with instances (EXT_mesh_gpu_instancing), drawn once: 1"));
+    check_fails(load_gltf(CROWD("", "\"ROTATION\":0") DATA, data()), "ROTATION: accessor 0 has a type");
+    check_fails(load_gltf(CROWD("", "\"SCALE\":9") DATA, data()), "SCALE: index 9");
+    check_fails(load_gltf(CROWD("", "\"TRANSLATION\":0") DATA, data_with(3, INFINITY)), "not finite");
+    check_fails(load_gltf(CROWD("", "\"ROTATION\":1,\"SCALE\":0") "\"accessors\":[{\"componentType\":5126,\"count\":3,"
+                          "\"type\":\"VEC3\"},{\"componentType\":5126,\"count\":1,\"type\":\"VEC4\"}]}"), "SCALE: 3 places, but");
+    check_fails(load_gltf(CROWD("", "\"SCALE\":0") "\"accessors\":[{\"componentType\":5126,\"count\":4194305,"
+                          "\"type\":\"VEC3\"}]}"), "over 4194304 places");
+}
+
+#define KEYS(output, path)                                                                                           \
+    "\"animations\":[{\"samplers\":[{\"input\":9,\"output\":" output "}],\"channels\":[{\"sampler\":0,\"target\":"      \
+    "{\"node\":0,\"path\":\"" path "\"}}]}],"
+
+/* The places follow a moving node, and each place has a mesh that changes shape. Accessor 9: 0 and 1. */
+static void moves_crowds(void)
+{
+    static char text[4096];
+    lmb_instance moved[6];
+    for (int shape = 0; shape < 2; ++shape) {
+        snprintf(text, sizeof text, "%s", shape ? CROWD("", "\"TRANSLATION\":0") KEYS("9", "weights") DATA
+                                                : CROWD("", "\"TRANSLATION\":0") KEYS("10", "translation") DATA);
+        char *end = strstr(text, "}],\"bufferViews\"");
+        CHECK(end != NULL);
+        static char whole[5120];
+        snprintf(whole, sizeof whole, "%.*s},{\"bufferView\":0,\"byteOffset\":8,\"componentType\":5126,\"count\":2,"
+                 "\"type\":\"SCALAR\"},{\"bufferView\":0,\"componentType\":5126,\"count\":2,\"type\":\"VEC3\"%s",
+                 (int)(end - text), text, end);
+        CHECK_LOADS(load_gltf(whole, data()));
+        const struct model_motion *m = loaded.motion;
+        CHECK_MSG(m != NULL, "%s", loaded.motion_problem.text);
+        if (m == NULL || loaded.scene.instance_count != 6)
+            continue;
+        if (shape == 0) {
+            memcpy(moved, loaded.scene.instances, sizeof moved);
+            CHECK(model_pose(moved, NULL, NULL, &loaded, 1));
+            for (int i = 0; i < 6; ++i)
+                CHECK(near((double)moved[i].to_world.m[12], i / 2 == 1 ? 3 : 1));
+            continue;
+        }
+        CHECK(m->shapes != NULL && m->shapes->count == 6);
+        for (uint32_t i = 0; m->shapes != NULL && i < m->shapes->count; ++i)
+            CHECK(m->shapes->shape[i].vertices == 3 && m->shapes->shape[i].rest_positions[0] == (float)(i % 2));
+    }
+}
+
 /* A quarter turn about Y, below scales that leave only one axis or none. */
 static void keeps_directions(void)
 {
@@ -294,6 +370,8 @@ void test_gltf_shape(void)
     shapes_by_weights();
     shapes_before_it_poses();
     hides();
+    draws_crowds();
+    moves_crowds();
     keeps_directions();
     reads_other_materials();
     forget();

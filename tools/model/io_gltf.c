@@ -26,7 +26,8 @@ static int extension_use(const gltf *g, uint32_t name)
                  {"KHR_materials_pbrSpecularGlossiness", MODEL_EXTENSION_FOLDED},
                  {"KHR_materials_emissive_strength", MODEL_EXTENSION_FOLDED},
                  {"KHR_node_visibility", MODEL_EXTENSION_READ},
-                 {"KHR_mesh_quantization", MODEL_EXTENSION_READ}};
+                 {"KHR_mesh_quantization", MODEL_EXTENSION_READ},
+                 {"EXT_mesh_gpu_instancing", MODEL_EXTENSION_READ}};
     size_t i;
     for (i = 0; i < sizeof known / sizeof known[0]; ++i)
         if (json_equals(&g->doc, name, known[i].name))
@@ -157,48 +158,69 @@ static int make_meshes(shown *to, uint64_t *total, const gltf_tree *t, gltf *g)
         if (!make_mesh(g, to[i].mesh))
             return 0;
         to[i].first = g->mesh_first[to[i].mesh];
-        *total += g->mesh_size[to[i].mesh];
+        *total += (uint64_t)g->mesh_size[to[i].mesh] * (g->crowd[i].count > 0 ? g->crowd[i].count : 1);
         if ((has(g, node, "skin") || has(g, node, "weights")) && !make_own(&to[i], t, g, node))
             return 0;
     }
     return 1;
 }
 
-/* Makes one instance per node and primitive; posed meshes are already in world space. */
+/* Adds the instances of a node at one place; `mover` is the node of the motion. */
+static void add_at(gltf *g, const gltf_tree *t, uint32_t i, const shown *node, const gltf_matrix *world, uint32_t mover)
+{
+    const uint32_t size = g->mesh_size[node->mesh];
+    for (uint32_t k = 0; k < size; ++k) {
+        const uint32_t n = g->b->instance_count++;
+        lmb_instance *to = &g->b->instances[n];
+        g->instance_node[n] = mover;
+        g->instance_shown[n] = i;
+        g->instance_from[n] = t->order[i];
+        for (int c = 0; c < 16; ++c)
+            to->to_world.m[c] = (float)world->m[c];
+        to->mesh = node->first + k;
+        to->material = g->mesh_material[to->mesh];
+    }
+}
+
+/* Adds the instances of a node at each of the places. */
+static int add_crowd(gltf *g, const gltf_tree *t, uint32_t i, const shown *node)
+{
+    const gltf_crowd c = g->crowd[i];
+    for (uint32_t p = c.first; p < c.first + c.count; ++p) {
+        gltf_matrix world;
+        if (!gltf_crowd_world(&world, g, &t->world[t->order[i]], g->nodes.items[t->order[i]], p))
+            return 0;
+        add_at(g, t, i, node, &world, t->count + p);
+    }
+    return 1;
+}
+
+/* Makes one instance per node, place and primitive; posed meshes are already in world space. */
 static int add_instances(const gltf_tree *t, gltf *g)
 {
     static const gltf_matrix unit = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
     shown *nodes = (shown *)build_scratch(g->b, t->count, sizeof *nodes);
     uint64_t total;
-    uint32_t i, k, c, *of, *shown_by, *from;
-    lmb_instance *to;
-    if (!nodes || !make_meshes(nodes, &total, t, g))
+    if (!nodes || !gltf_crowds(t, g) || !make_meshes(nodes, &total, t, g))
         return 0;
-    if (total > UINT32_MAX / sizeof *to)
+    if (total > UINT32_MAX / sizeof(lmb_instance))
         return report_fail(g->b->r, "%s: too many instances", g->b->path);
-    to = g->b->instances = (lmb_instance *)build_keep(g->b, total, sizeof *to);
-    of = g->instance_node = (uint32_t *)build_keep(g->b, total, sizeof *of);
-    shown_by = g->instance_shown = (uint32_t *)build_scratch(g->b, total, sizeof *shown_by);
-    from = g->instance_from = (uint32_t *)build_scratch(g->b, total, sizeof *from);
-    if (!to || !of || !shown_by || !from)
+    g->b->instances = (lmb_instance *)build_keep(g->b, total, sizeof *g->b->instances);
+    g->instance_node = (uint32_t *)build_keep(g->b, total, sizeof *g->instance_node);
+    g->instance_shown = (uint32_t *)build_scratch(g->b, total, sizeof *g->instance_shown);
+    g->instance_from = (uint32_t *)build_scratch(g->b, total, sizeof *g->instance_from);
+    if (!g->b->instances || !g->instance_node || !g->instance_shown || !g->instance_from)
         return 0;
-    for (i = 0; i < t->count; ++i) {
-        const uint32_t mesh = nodes[i].mesh, size = mesh == JSON_NONE ? 0 : g->mesh_size[mesh];
+    g->b->instance_count = 0;
+    for (uint32_t i = 0; i < t->count; ++i) {
         const gltf_matrix *world = &t->world[t->order[i]];
-        const int is_posed = nodes[i].is_posed;
-        if (is_posed)
-            world = &unit;
-        for (k = 0; k < size; ++k, ++to, ++of, ++from) {
-            *of = is_posed ? MODEL_NONE : i;
-            *shown_by++ = i;
-            *from = t->order[i];
-            for (c = 0; c < 16; ++c)
-                to->to_world.m[c] = (float)world->m[c];
-            to->mesh = nodes[i].first + k;
-            to->material = g->mesh_material[to->mesh];
-        }
+        if (nodes[i].mesh == JSON_NONE)
+            continue;
+        if (g->crowd[i].count == 0)
+            add_at(g, t, i, &nodes[i], nodes[i].is_posed ? &unit : world, nodes[i].is_posed ? MODEL_NONE : i);
+        else if (!add_crowd(g, t, i, &nodes[i]))
+            return 0;
     }
-    g->b->instance_count = (uint32_t)total;
     return 1;
 }
 
@@ -243,6 +265,7 @@ static void tell_left_out(gltf *g)
     build_note_count(g->b, "nodes that a scene names though they are no roots, or twice; drawn once", n->no_roots);
     build_note_count(g->b, "skinned nodes posed by their joints as the file places them, or in `lambent play` as "
                      "animations do", n->skins);
+    build_note_count(g->b, "skinned nodes with instances (EXT_mesh_gpu_instancing), drawn once", n->skin_crowds);
     build_note_count(g->b, "primitives whose morph targets move colours or texture coordinates, which stay",
                      n->odd_morphs);
     build_note_count_of(g->b, MODEL_NOTE_MOTION, "animations, which only `lambent play` shows",
@@ -308,11 +331,19 @@ static void count_facts(gltf *g)
     facts->skins = g->skins.count;
 }
 
+/* A node with several places has no single transform, so a baked GLB of such a scene gets new nodes. */
+static int keeps_source(gltf *g)
+{
+    if (g->b->keeps_source && g->places > 0)
+        build_note(g->b, "EXT_mesh_gpu_instancing: a baked GLB has new nodes, without names of nodes and other maps");
+    return g->b->keeps_source && g->places == 0;
+}
+
 static int load_document(gltf *g)
 {
     gltf_tree t;
     if (!check_version(g) || !check_extensions(g) || !gltf_lists(g) || !gltf_make_tree(&t, g) || !make_tables(&t, g) ||
-        !gltf_materials(g) || !add_instances(&t, g) || (g->b->keeps_source && !gltf_source(g)) || !gltf_light_end(g) ||
+        !gltf_materials(g) || !add_instances(&t, g) || (keeps_source(g) && !gltf_source(g)) || !gltf_light_end(g) ||
         !gltf_lights(&t, g) || !gltf_cameras(&t, g))
         return 0;
     gltf_motion(&t, g);

@@ -43,8 +43,13 @@ typedef struct gltf_counts {
     uint32_t points_lines, without_positions, ragged, bare;       /* primitives, vertices */
     uint32_t textures, blends, metals, metal_maps, gloss_maps, unlit, emissive_maps; /* materials */
     uint32_t occlusion_maps, odd_normal_maps, without_uvs;                         /* materials, primitives */
-    uint32_t skins, odd_morphs, no_roots;                                       /* nodes, primitives, nodes */
+    uint32_t skins, skin_crowds, odd_morphs, no_roots;                 /* nodes, nodes, primitives, nodes */
 } gltf_counts;
+
+/* EXT_mesh_gpu_instancing of a node: a range of places; count 0: the node has none. */
+typedef struct gltf_crowd {
+    uint32_t first, count;
+} gltf_crowd;
 
 typedef struct gltf {
     model_build *b;
@@ -73,6 +78,9 @@ typedef struct gltf {
     gltf_uv *light_uv;                /* by material, for baked light; NULL: the file has no baked light */
     uint32_t *instance_node, *light_node, *camera_node; /* for the model: index in the tree's order, or MODEL_NONE */
     uint32_t *instance_shown;         /* by instance: index in the tree of the node with this mesh, skinned or not */
+    gltf_crowd *crowd;                /* by index in the tree */
+    model_local *place;               /* transforms relative to the node that has them */
+    uint32_t *place_owner, places;    /* by place: index of that node in the tree; places in all */
     gltf_counts left_out;
     report texture_error; /* the first one */
 } gltf;
@@ -125,6 +133,11 @@ int gltf_accessor_indices(uint32_t *out, const gltf *g, const gltf_accessor *a);
 int gltf_make_tree(gltf_tree *t, gltf *g);
 int gltf_local(model_local *out, gltf *g, uint32_t node);
 void gltf_multiply(gltf_matrix *out, const gltf_matrix *a, const gltf_matrix *b);
+
+/* io_gltf_crowd.c: gltf_crowds: reads all places of the tree's nodes. gltf_crowd_world: the transform of a place of a JSON
+ * node with this world transform. In the model's motion, place p is node (nodes of the tree) + p. */
+int gltf_crowds(const gltf_tree *t, gltf *g);
+int gltf_crowd_world(gltf_matrix *out, gltf *g, const gltf_matrix *world, uint32_t node, uint32_t place);
 
 /* io_gltf_place.c: for the nodes of the tree */
 int gltf_lights(const gltf_tree *t, gltf *g);

@@ -177,11 +177,12 @@ static model_track *sorted(const reading *m)
 static int make_nodes(struct model_motion *out, const reading *m)
 {
     const gltf_tree *t = m->tree;
-    uint32_t *parent = (uint32_t *)build_keep(m->g->b, t->count, sizeof *parent), i;
-    model_local *rest = (model_local *)build_keep(m->g->b, t->count, sizeof *rest);
-    out->moves = (uint8_t *)build_keep(m->g->b, t->count, 1);
-    out->world = (double(*)[16])build_keep(m->g->b, t->count, sizeof *out->world);
-    out->turn = (double(*)[16])build_keep(m->g->b, t->count, sizeof *out->turn);
+    const uint64_t nodes = (uint64_t)t->count + m->g->places;
+    uint32_t *parent = (uint32_t *)build_keep(m->g->b, nodes, sizeof *parent), i;
+    model_local *rest = (model_local *)build_keep(m->g->b, nodes, sizeof *rest);
+    out->moves = (uint8_t *)build_keep(m->g->b, nodes, 1);
+    out->world = (double(*)[16])build_keep(m->g->b, nodes, sizeof *out->world);
+    out->turn = (double(*)[16])build_keep(m->g->b, nodes, sizeof *out->turn);
     if (!parent || !rest || !out->moves || !out->world || !out->turn)
         return 0;
     for (i = 0; i < t->count; ++i) {
@@ -192,9 +193,14 @@ static int make_nodes(struct model_motion *out, const reading *m)
         if (!gltf_local(&rest[i], m->g, m->g->nodes.items[t->order[i]]))
             return 0;
     }
+    for (i = 0; i < m->g->places; ++i) {
+        parent[t->count + i] = m->g->place_owner[i];
+        rest[t->count + i] = m->g->place[i];
+        out->moves[t->count + i] = out->moves[m->g->place_owner[i]];
+    }
     out->parent = parent;
     out->rest = rest;
-    out->nodes = t->count;
+    out->nodes = (uint32_t)nodes;
     return 1;
 }
 
