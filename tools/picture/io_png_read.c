@@ -133,13 +133,13 @@ static int read_header(png_reader *p, const png_chunk *c)
 
 static int read_palette(png_reader *p, const png_chunk *c)
 {
-    const uint32_t most = p->colour == PALETTE ? 1u << p->depth : 256u;
+    const uint32_t shown = p->colour == PALETTE ? 1u << p->depth : 256u;
     uint32_t i, count = c->size / 3;
     if (p->colour == GREY || p->colour == GREY_ALPHA || p->palette_count || p->has_key || p->first_idat)
         return misplaced(p, c);
     if (c->size % 3 != 0 || count < 1 || count > 256) return wrong_size(p, c);
     p->palette_stored = count;
-    count = count < most ? count : most; /* no pixel can show the rest, and other decoders ignore it */
+    count = count < shown ? count : shown; /* no pixel can show the rest, and other decoders ignore it */
     for (i = 0; i < count; ++i) {
         memcpy(p->palette[i], c->body + 3 * i, 3);
         p->palette[i][3] = 255;
