@@ -184,6 +184,44 @@ static void check_long_run(void)
     bitmap_free(&map);
 }
 
+/* The first sample with an Exif segment in front: two entries, the second of which is `tag` with `value`. `cut` bytes
+ * of the segment's end are missing. Returns whether the orientation is noted. */
+static int is_turned(int is_big, uint32_t tag, uint32_t value, size_t cut)
+{
+    static uint8_t file[1 << 14];
+    uint8_t exif[10 + 8 + 2 + 24] = {0xFF, 0xE1, 0, 0, 'E', 'x', 'i', 'f', 0, 0};
+    const uint32_t number[][3] = {{2, 42, 2},   {4, 8, 4},  {8, 2, 2},  {10, 0x100, 2},
+                                  {22, tag, 2}, {24, 3, 2}, {26, 1, 4}, {30, value, 2}}; /* offset, number, bytes */
+    const size_t size = sizeof exif - cut, rest = samples[0].size - 2;
+    bitmap map;
+    report r;
+    exif[3] = (uint8_t)(size - 2);
+    exif[10] = exif[11] = is_big ? 'M' : 'I';
+    for (size_t i = 0; i < sizeof number / sizeof *number; ++i)
+        for (uint32_t k = 0; k < number[i][2]; ++k)
+            exif[10 + number[i][0] + k] = (uint8_t)(number[i][1] >> 8 * (is_big ? number[i][2] - 1 - k : k));
+    memcpy(file, samples[0].jpeg, 2);
+    memcpy(file + 2, exif, size);
+    memcpy(file + 2 + size, samples[0].jpeg + 2, rest);
+    if (!decode_copy(&map, file, 2 + size + rest, &r)) {
+        CHECK_MSG(0, "%s", r.text);
+        return 0;
+    }
+    const int is_noted = map.note != NULL && strstr(map.note, "Exif orientation") != NULL;
+    bitmap_free(&map);
+    return is_noted;
+}
+
+static void check_orientation(void)
+{
+    for (int is_big = 0; is_big < 2; ++is_big) {
+        CHECK(is_turned(is_big, 0x112, 6, 0) && is_turned(is_big, 0x112, 8, 0) && is_turned(is_big, 0x112, 2, 0));
+        CHECK(!is_turned(is_big, 0x112, 1, 0) && !is_turned(is_big, 0x112, 9, 0) && !is_turned(is_big, 0x113, 6, 0));
+        for (size_t cut = 5; cut < 40; ++cut)
+            CHECK(!is_turned(is_big, 0x112, 6, cut));
+    }
+}
+
 /* --- refusals --- */
 
 /* Offset of the first marker of this kind. */
@@ -274,6 +312,7 @@ static void check_extras(void)
 void test_jpeg(void)
 {
     check_long_run();
+    check_orientation();
     int i;
     for (i = 0; i < SAMPLES; ++i) {
         check_pixels(&samples[i]);

@@ -135,8 +135,8 @@ int gltf_local(model_local *out, gltf *g, uint32_t node);
 void gltf_multiply(gltf_matrix *out, const gltf_matrix *a, const gltf_matrix *b);
 
 /* io_gltf_crowd.c */
-/* gltf_crowds: reads all places of the tree's nodes. gltf_crowd_world: the transform of a place of a JSON node with this
- * world transform. In the model's motion, place p is node (nodes of the tree) + p. */
+/* gltf_crowds: reads all places of the tree's nodes. gltf_crowd_world: the transform of a place of a JSON node with
+ * this world transform. In the model's motion, place p is node (nodes of the tree) + p. */
 int gltf_crowds(const gltf_tree *t, gltf *g);
 int gltf_crowd_world(gltf_matrix *out, gltf *g, const gltf_matrix *world, uint32_t node, uint32_t place);
 
