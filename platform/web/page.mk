@@ -13,14 +13,14 @@ PAGE_RT    = $(firstword $(wildcard $(WASI)/lib/llvm-*/lib/clang/*/lib/wasi/libc
 PAGE_SRC  := $(filter-out src/isa/% tools/common/io_file.c tools/relief/verb_relief_bake.c tools/relief/relief_compare.c tools/relief/relief_path.c tools/common/key_path.c tools/relief/relief_model.c \
              tools/relief/relief_crowd.c tools/relief/relief_crowd_read.c tools/relief/relief_photos.c tools/relief/relief_sky.c tools/relief/relief_withheld.c \
              tools/relight/relight_hidden.c tools/relight/relight_lobes.c tools/render/wireframe.c tools/render/blended.c tools/render/budget.c tools/render/scene_sample.c tools/render/bench_calibrate.c \
-             %/gen_demo.c %/gen_srgb.c %/demo_scene.c tools/picture/io_png_write.c tools/picture/io_deflate.c tools/picture/io_pam.c \
+             %/gen_demo.c %/gen_srgb.c %/demo_scene.c tools/picture/io_png_write.c tools/picture/io_deflate.c tools/picture/io_pam.c tools/picture/io_jpeg_exif.c tools/model/io_gltf_crowd.c \
              tools/common/slice.c tools/common/merge.c tools/common/slice_items.c tools/common/byte_buffer.c tools/render/render_slice.c tools/common/area_light.c \
              tools/mix/mix_sun.c tools/mix/mix_cast.c tools/mix/mix_labels.c tools/mix/mix_grain.c tools/mix/mix_block.c tools/mix/mix_swift.c tools/mix/mix_placements.c tools/mix/mix_resample.c tools/mix/mix_islands.c tools/mix/mix_front.c tools/mix/mix_list.c tools/mix/mix_frames.c tools/mix/mix_again.c tools/mix/mix_lobes.c tools/mix/mix_sources.c tools/mix/mix_mirror.c tools/mix/mix_contact.c tools/mix/mix_inside.c tools/mix/mix_around.c tools/mix/mix_carry.c tools/mix/mix_near.c tools/mix/mix_lights.c tools/mix/mix_next.c tools/mix/mix_aside.c tools/mix/mix_stays.c tools/mix/mix_world.c tools/mix/mix_sequence.c tools/model/glb_write.c tools/relight/relight_worlds.c tools/relight/relight_path.c tools/relight/relight_contact.c tools/relight/relight_region.c tools/relight/relight_ground.c tools/relight/relight_samples.c tools/relight/relight_shade.c tools/relight/relight_export.c tools/relight/relight_way.c tools/relight/relight_many.c, \
              $(sort $(wildcard src/*/*.c $(foreach d,common picture mesh model demo render relight relief mix,tools/$(d)/*.c) \
              platform/web/page/*.c)))
 PAGE_KERNELS := src/base/codec.c src/base/poly.c src/bounce/polygon.c src/raster/plane.c src/raster/texture.c
 PAGE_FLAGS := --target=wasm32-wasi -isystem $(WASI)/include/wasm32-wasi -std=c99 -ffp-contract=off -fno-math-errno \
-              -fno-builtin-bcmp -flto -mbulk-memory -Wall -Wextra -Iinclude -D_WASI_EMULATED_SIGNAL -DOPTIONS_WITHOUT_HELP -DLMB_CULLING=0 -DLMB_LIVE=0 -DLMB_DRAW=0 -DLMB_FACETS=0 \
+              -fno-builtin-bcmp -flto -mbulk-memory -Wall -Wextra -Iinclude -D_WASI_EMULATED_SIGNAL -DOPTIONS_WITHOUT_HELP -DGLTF_WITHOUT_CROWDS -DLMB_CULLING=0 -DLMB_LIVE=0 -DLMB_DRAW=0 -DLMB_FACETS=0 \
               -mnontrapping-fptoint -msign-ext -MMD -MP
 # Below the module's data and 1 MiB of stack: 128 KiB each for the data of the kernels and of the
 # demo, and unused stacks.

@@ -26,13 +26,12 @@ static int extension_use(const gltf *g, uint32_t name)
                  {"KHR_materials_pbrSpecularGlossiness", MODEL_EXTENSION_FOLDED},
                  {"KHR_materials_emissive_strength", MODEL_EXTENSION_FOLDED},
                  {"KHR_node_visibility", MODEL_EXTENSION_READ},
-                 {"KHR_mesh_quantization", MODEL_EXTENSION_READ},
-                 {"EXT_mesh_gpu_instancing", MODEL_EXTENSION_READ}};
+                 {"KHR_mesh_quantization", MODEL_EXTENSION_READ}};
     size_t i;
     for (i = 0; i < sizeof known / sizeof known[0]; ++i)
         if (json_equals(&g->doc, name, known[i].name))
             return known[i].use;
-    return MODEL_EXTENSION_IGNORED;
+    return GLTF_HAS_CROWDS ? gltf_crowd_use(g, name) : MODEL_EXTENSION_IGNORED;
 }
 
 /* Adds each name of a list once to the facts: the required ones, which come first, and the used ones. */
@@ -158,41 +157,27 @@ static int make_meshes(shown *to, uint64_t *total, const gltf_tree *t, gltf *g)
         if (!make_mesh(g, to[i].mesh))
             return 0;
         to[i].first = g->mesh_first[to[i].mesh];
-        *total += (uint64_t)g->mesh_size[to[i].mesh] * (g->crowd[i].count > 0 ? g->crowd[i].count : 1);
+        *total += (uint64_t)g->mesh_size[to[i].mesh] * (GLTF_HAS_CROWDS && g->crowd[i].count > 0 ? g->crowd[i].count : 1);
         if ((has(g, node, "skin") || has(g, node, "weights")) && !make_own(&to[i], t, g, node))
             return 0;
     }
     return 1;
 }
 
-/* Adds the instances of a node at one place; `mover` is the node of the motion. */
-static void add_at(gltf *g, const gltf_tree *t, uint32_t i, const shown *node, const gltf_matrix *world, uint32_t mover)
+void gltf_add_instances(gltf *g, const gltf_tree *t, const gltf_placing *p)
 {
-    const uint32_t size = g->mesh_size[node->mesh];
+    const uint32_t size = g->mesh_size[p->mesh];
     for (uint32_t k = 0; k < size; ++k) {
         const uint32_t n = g->b->instance_count++;
         lmb_instance *to = &g->b->instances[n];
-        g->instance_node[n] = mover;
-        g->instance_shown[n] = i;
-        g->instance_from[n] = t->order[i];
+        g->instance_node[n] = p->mover;
+        g->instance_shown[n] = p->order;
+        g->instance_from[n] = t->order[p->order];
         for (int c = 0; c < 16; ++c)
-            to->to_world.m[c] = (float)world->m[c];
-        to->mesh = node->first + k;
+            to->to_world.m[c] = (float)p->world->m[c];
+        to->mesh = p->first + k;
         to->material = g->mesh_material[to->mesh];
     }
-}
-
-/* Adds the instances of a node at each of the places. */
-static int add_crowd(gltf *g, const gltf_tree *t, uint32_t i, const shown *node)
-{
-    const gltf_crowd c = g->crowd[i];
-    for (uint32_t p = c.first; p < c.first + c.count; ++p) {
-        gltf_matrix world;
-        if (!gltf_crowd_world(&world, g, &t->world[t->order[i]], g->nodes.items[t->order[i]], p))
-            return 0;
-        add_at(g, t, i, node, &world, t->count + p);
-    }
-    return 1;
 }
 
 /* Makes one instance per node, place and primitive; posed meshes are already in world space. */
@@ -201,7 +186,7 @@ static int add_instances(const gltf_tree *t, gltf *g)
     static const gltf_matrix unit = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
     shown *nodes = (shown *)build_scratch(g->b, t->count, sizeof *nodes);
     uint64_t total;
-    if (!nodes || !gltf_crowds(t, g) || !make_meshes(nodes, &total, t, g))
+    if (!nodes || (GLTF_HAS_CROWDS && !gltf_crowds(t, g)) || !make_meshes(nodes, &total, t, g))
         return 0;
     if (total > UINT32_MAX / sizeof(lmb_instance))
         return report_fail(g->b->r, "%s: too many instances", g->b->path);
@@ -213,12 +198,14 @@ static int add_instances(const gltf_tree *t, gltf *g)
         return 0;
     g->b->instance_count = 0;
     for (uint32_t i = 0; i < t->count; ++i) {
-        const gltf_matrix *world = &t->world[t->order[i]];
+        const int is_posed = nodes[i].is_posed;
+        const gltf_placing p = {nodes[i].mesh, nodes[i].first, i, is_posed ? MODEL_NONE : i,
+                                is_posed ? &unit : &t->world[t->order[i]]};
         if (nodes[i].mesh == JSON_NONE)
             continue;
-        if (g->crowd[i].count == 0)
-            add_at(g, t, i, &nodes[i], nodes[i].is_posed ? &unit : world, nodes[i].is_posed ? MODEL_NONE : i);
-        else if (!add_crowd(g, t, i, &nodes[i]))
+        if (!GLTF_HAS_CROWDS || g->crowd[i].count == 0)
+            gltf_add_instances(g, t, &p);
+        else if (!gltf_add_crowd(g, t, &p))
             return 0;
     }
     return 1;
@@ -265,7 +252,6 @@ static void tell_left_out(gltf *g)
     build_note_count(g->b, "nodes that a scene names though they are no roots, or twice; drawn once", n->no_roots);
     build_note_count(g->b, "skinned nodes posed by their joints as the file places them, or in `lambent play` as "
                      "animations do", n->skins);
-    build_note_count(g->b, "skinned nodes with instances (EXT_mesh_gpu_instancing), drawn once", n->skin_crowds);
     build_note_count(g->b, "primitives whose morph targets move colours or texture coordinates, which stay",
                      n->odd_morphs);
     build_note_count_of(g->b, MODEL_NOTE_MOTION, "animations, which only `lambent play` shows",
@@ -331,19 +317,11 @@ static void count_facts(gltf *g)
     facts->skins = g->skins.count;
 }
 
-/* A node with several places has no single transform, so a baked GLB of such a scene gets new nodes. */
-static int keeps_source(gltf *g)
-{
-    if (g->b->keeps_source && g->places > 0)
-        build_note(g->b, "EXT_mesh_gpu_instancing: a baked GLB has new nodes, without names of nodes and other maps");
-    return g->b->keeps_source && g->places == 0;
-}
-
 static int load_document(gltf *g)
 {
     gltf_tree t;
     if (!check_version(g) || !check_extensions(g) || !gltf_lists(g) || !gltf_make_tree(&t, g) || !make_tables(&t, g) ||
-        !gltf_materials(g) || !add_instances(&t, g) || (keeps_source(g) && !gltf_source(g)) || !gltf_light_end(g) ||
+        !gltf_materials(g) || !add_instances(&t, g) || (g->b->keeps_source && !gltf_source(g)) || !gltf_light_end(g) ||
         !gltf_lights(&t, g) || !gltf_cameras(&t, g))
         return 0;
     gltf_motion(&t, g);

@@ -43,7 +43,7 @@ typedef struct gltf_counts {
     uint32_t points_lines, without_positions, ragged, bare;       /* primitives, vertices */
     uint32_t textures, blends, metals, metal_maps, gloss_maps, unlit, emissive_maps; /* materials */
     uint32_t occlusion_maps, odd_normal_maps, without_uvs;                         /* materials, primitives */
-    uint32_t skins, skin_crowds, odd_morphs, no_roots;                 /* nodes, nodes, primitives, nodes */
+    uint32_t skins, odd_morphs, no_roots;                                       /* nodes, primitives, nodes */
 } gltf_counts;
 
 /* EXT_mesh_gpu_instancing of a node: a range of places; count 0: the node has none. */
@@ -134,11 +134,29 @@ int gltf_make_tree(gltf_tree *t, gltf *g);
 int gltf_local(model_local *out, gltf *g, uint32_t node);
 void gltf_multiply(gltf_matrix *out, const gltf_matrix *a, const gltf_matrix *b);
 
+/* All instances of a node at one place. */
+typedef struct gltf_placing {
+    uint32_t mesh, first;     /* index in g->meshes; the first of the meshes in the model */
+    uint32_t order, mover;    /* index in the tree; node of the motion, or MODEL_NONE */
+    const gltf_matrix *world; /* of the node */
+} gltf_placing;
+
+/* io_gltf.c: adds an instance for each primitive. */
+void gltf_add_instances(gltf *g, const gltf_tree *t, const gltf_placing *p);
+
+#ifdef GLTF_WITHOUT_CROWDS
+enum { GLTF_HAS_CROWDS = 0 }; /* for the page on the web, which has to be small */
+#else
+enum { GLTF_HAS_CROWDS = 1 };
+#endif
+
 /* io_gltf_crowd.c */
-/* gltf_crowds: reads all places of the tree's nodes. gltf_crowd_world: the transform of a place of a JSON node with
- * this world transform. In the model's motion, place p is node (nodes of the tree) + p. */
+/* gltf_crowds: reads all places of the tree's nodes. gltf_add_crowd: adds the instances of a node at each place.
+ * gltf_crowd_motion: in the model's motion, place p is node (nodes of the tree) + p. */
 int gltf_crowds(const gltf_tree *t, gltf *g);
-int gltf_crowd_world(gltf_matrix *out, gltf *g, const gltf_matrix *world, uint32_t node, uint32_t place);
+int gltf_crowd_use(const gltf *g, uint32_t name); /* MODEL_EXTENSION_ support for this extension */
+int gltf_add_crowd(gltf *g, const gltf_tree *t, const gltf_placing *node);
+void gltf_crowd_motion(uint32_t *parent, model_local *rest, uint8_t *moves, const gltf_tree *t, const gltf *g);
 
 /* io_gltf_place.c: for the nodes of the tree */
 int gltf_lights(const gltf_tree *t, gltf *g);

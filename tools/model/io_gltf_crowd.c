@@ -8,6 +8,11 @@
 /* Most places of a file. Nodes can share accessors, so a small file could describe billions. */
 enum { MAX_PLACES = 1 << 22 };
 
+int gltf_crowd_use(const gltf *g, uint32_t name)
+{
+    return json_equals(&g->doc, name, "EXT_mesh_gpu_instancing") ? MODEL_EXTENSION_READ : MODEL_EXTENSION_IGNORED;
+}
+
 /* The attributes of a node, by JSON node; JSON_NONE: not given. */
 typedef struct crowd_keys {
     uint32_t t, q, s;
@@ -77,25 +82,26 @@ static int read_places(gltf *g, uint32_t node, uint32_t first)
 }
 
 /* Skins are posed in the world, where places have no meaning. */
-static int is_crowd(crowd_keys *keys, const gltf_tree *t, gltf *g, uint32_t i)
+static int is_crowd(crowd_keys *keys, uint32_t *skins, const gltf_tree *t, const gltf *g, uint32_t i)
 {
     const uint32_t node = g->nodes.items[t->order[i]];
     if (t->hidden[t->order[i]] || !find_keys(keys, g, node))
         return 0;
     const int has_skin = json_member(&g->doc, node, "skin") != JSON_NONE;
-    g->left_out.skin_crowds += (uint32_t)has_skin;
+    *skins += (uint32_t)has_skin;
     return !has_skin;
 }
 
 int gltf_crowds(const gltf_tree *t, gltf *g)
 {
     uint64_t total = 0;
+    uint32_t skins = 0;
     g->crowd = (gltf_crowd *)build_scratch(g->b, t->count, sizeof *g->crowd);
     for (uint32_t i = 0; g->crowd && i < t->count; ++i) {
         crowd_keys keys;
         gltf_accessor a[3];
         gltf_crowd *c = &g->crowd[i];
-        if (!is_crowd(&keys, t, g, i))
+        if (!is_crowd(&keys, &skins, t, g, i))
             continue;
         if (!open_all(a, &c->count, g, &keys))
             return 0;
@@ -105,6 +111,9 @@ int gltf_crowds(const gltf_tree *t, gltf *g)
             return report_fail(g->b->r, "%s: over %d places of instances (EXT_mesh_gpu_instancing)", g->b->path,
                                (int)MAX_PLACES);
     }
+    build_note_count(g->b, "skinned nodes with instances (EXT_mesh_gpu_instancing), drawn once", skins);
+    if (g->b->keeps_source && total > 0)
+        build_note(g->b, "EXT_mesh_gpu_instancing: a baked GLB has new nodes, without names of nodes and other maps");
     g->places = (uint32_t)total;
     g->place = (model_local *)build_scratch(g->b, total, sizeof *g->place);
     g->place_owner = (uint32_t *)build_scratch(g->b, total, sizeof *g->place_owner);
@@ -120,7 +129,8 @@ int gltf_crowds(const gltf_tree *t, gltf *g)
     return 1;
 }
 
-int gltf_crowd_world(gltf_matrix *out, gltf *g, const gltf_matrix *world, uint32_t node, uint32_t place)
+/* The transform of a place of a JSON node. */
+static int crowd_world(gltf_matrix *out, gltf *g, const gltf_matrix *world, uint32_t node, uint32_t place)
 {
     gltf_matrix local;
     if (!model_compose(local.m, &g->place[place]))
@@ -131,4 +141,28 @@ int gltf_crowd_world(gltf_matrix *out, gltf *g, const gltf_matrix *world, uint32
             return json_fail(&g->doc, node, g->b->r, "an instance's place in the world is not finite");
     }
     return 1;
+}
+
+int gltf_add_crowd(gltf *g, const gltf_tree *t, const gltf_placing *node)
+{
+    const gltf_crowd c = g->crowd[node->order];
+    for (uint32_t p = c.first; p < c.first + c.count; ++p) {
+        gltf_matrix world;
+        gltf_placing at = *node;
+        at.mover = t->count + p;
+        at.world = &world;
+        if (!crowd_world(&world, g, node->world, g->nodes.items[t->order[node->order]], p))
+            return 0;
+        gltf_add_instances(g, t, &at);
+    }
+    return 1;
+}
+
+void gltf_crowd_motion(uint32_t *parent, model_local *rest, uint8_t *moves, const gltf_tree *t, const gltf *g)
+{
+    for (uint32_t i = 0; i < g->places; ++i) {
+        parent[t->count + i] = g->place_owner[i];
+        rest[t->count + i] = g->place[i];
+        moves[t->count + i] = moves[g->place_owner[i]];
+    }
 }

@@ -177,7 +177,7 @@ static model_track *sorted(const reading *m)
 static int make_nodes(struct model_motion *out, const reading *m)
 {
     const gltf_tree *t = m->tree;
-    const uint64_t nodes = (uint64_t)t->count + m->g->places;
+    const uint64_t nodes = (uint64_t)t->count + (GLTF_HAS_CROWDS ? m->g->places : 0);
     uint32_t *parent = (uint32_t *)build_keep(m->g->b, nodes, sizeof *parent), i;
     model_local *rest = (model_local *)build_keep(m->g->b, nodes, sizeof *rest);
     out->moves = (uint8_t *)build_keep(m->g->b, nodes, 1);
@@ -193,11 +193,8 @@ static int make_nodes(struct model_motion *out, const reading *m)
         if (!gltf_local(&rest[i], m->g, m->g->nodes.items[t->order[i]]))
             return 0;
     }
-    for (i = 0; i < m->g->places; ++i) {
-        parent[t->count + i] = m->g->place_owner[i];
-        rest[t->count + i] = m->g->place[i];
-        out->moves[t->count + i] = out->moves[m->g->place_owner[i]];
-    }
+    if (GLTF_HAS_CROWDS)
+        gltf_crowd_motion(parent, rest, out->moves, t, m->g);
     out->parent = parent;
     out->rest = rest;
     out->nodes = (uint32_t)nodes;

@@ -226,7 +226,8 @@ static int take_streams(model_shape *out, gltf *g, lmb_mesh *mesh, const lmb_mes
 static int make_shape(model_shape *out, shaping *s, uint32_t instance)
 {
     gltf *g = s->g;
-    const uint32_t from = g->mesh_first[s->at.mesh] + s->at.next % g->mesh_size[s->at.mesh]; /* all at each place */
+    const uint32_t next = GLTF_HAS_CROWDS ? s->at.next % g->mesh_size[s->at.mesh] : s->at.next, /* all at each place */
+                   from = g->mesh_first[s->at.mesh] + next;
     lmb_mesh *mesh = &g->b->meshes[g->b->instances[instance].mesh];
     if (!read_skin(s))
         return 0;

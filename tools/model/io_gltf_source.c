@@ -114,6 +114,8 @@ static int make_tables(model_source *s, gltf *g)
 
 int gltf_source(gltf *g)
 {
+    if (GLTF_HAS_CROWDS && g->places > 0) /* a node with several places has no single transform */
+        return 1;
     model_source *s = build_keep(g->b, 1, sizeof *s);
     float **known = build_scratch(g->b, g->accessors.count, sizeof *known);
     uint8_t *is_read = build_scratch(g->b, g->b->mesh_count, 1);

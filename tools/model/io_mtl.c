@@ -246,8 +246,7 @@ static uint8_t left_out_by(slice word, cursor c)
     } known[] = {{"map_d", OBJ_LEFT_OPACITY_MAP}, {"map_Ke", OBJ_LEFT_EMISSION_MAP}, {"bump", OBJ_LEFT_BUMP},
                  {"map_bump", OBJ_LEFT_BUMP},     {"norm", OBJ_LEFT_BUMP},
                  {"map_Kn", OBJ_LEFT_BUMP},       {"map_norm", OBJ_LEFT_BUMP},
-                 {"disp", OBJ_LEFT_RELIEF},       {"map_disp", OBJ_LEFT_RELIEF},
-                 {"decal", OBJ_LEFT_RELIEF}};
+                 {"disp", OBJ_LEFT_RELIEF},       {"decal", OBJ_LEFT_RELIEF}};
     slice token;
     size_t i;
     for (i = 0; i < sizeof known / sizeof known[0]; ++i)

@@ -308,34 +308,9 @@ static int read_scan(jpeg_reader *j, const jpeg_segment *s)
 
 /* --- the whole --- */
 
-/* An unsigned number of `bytes` bytes in Exif data, in either byte order; 0 beyond the end. */
-static uint32_t exif_number(const jpeg_segment *s, int is_big, size_t at, size_t bytes)
-{
-    uint32_t v = 0;
-    if (s->size < bytes || at > s->size - bytes) return 0;
-    for (size_t i = 0; i < bytes; ++i) v = v << 8 | s->body[at + (is_big ? i : bytes - 1 - i)];
-    return v;
-}
-
-/* Notes that the camera was turned: viewers turn the picture then, but depth and poses are of the stored pixels. */
-static void read_exif(jpeg_reader *j, const jpeg_segment *s)
-{
-    enum { TIFF = 6, ENTRY = 12, ORIENTATION = 0x112 }; /* bytes of "Exif\0\0", of an entry; a tag */
-    if (s->size < TIFF + 8 || memcmp(s->body, "Exif\0", 6) != 0) return;
-    const int is_big = s->body[TIFF] == 'M';
-    const size_t list = TIFF + (size_t)exif_number(s, is_big, TIFF + 4, 4);
-    const uint32_t entries = exif_number(s, is_big, list, 2);
-    for (uint32_t i = 0; i < entries && list + 2 + ENTRY * (size_t)i < s->size; ++i) {
-        const size_t at = list + 2 + ENTRY * (size_t)i;
-        const uint32_t turn = exif_number(s, is_big, at + 8, 2);
-        if (exif_number(s, is_big, at, 2) == ORIENTATION && turn >= 2 && turn <= 8)
-            j->note = "viewers turn or mirror it by the Exif orientation; here it is used as stored";
-    }
-}
-
 static void read_application(jpeg_reader *j, const jpeg_segment *s)
 {
-    if (s->marker == APP0 + 1) read_exif(j, s);
+    if (s->marker == APP0 + 1 && j->note == NULL) j->note = jpeg_exif_note(s->body, s->size);
     if (s->marker == APP0 && s->size >= 5 && memcmp(s->body, "JFIF", 5) == 0) j->is_jfif = 1;
     if (s->marker == APP14 && s->size >= 12 && memcmp(s->body, "Adobe", 5) == 0) j->adobe = s->body[11];
 }

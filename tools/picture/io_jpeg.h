@@ -87,4 +87,8 @@ void jpeg_inverse_dct(uint8_t *out, size_t stride, const int16_t block[64], cons
 /* jpeg_colour_rows: converts the whole picture to RGBA. `rows`: scratch, JPEG_COMPONENTS * (width + 4) bytes. */
 void jpeg_colour_rows(uint8_t *texels, const jpeg_reader *j, int is_ycc, uint8_t *rows);
 
+/* io_jpeg_exif.c: returns a note if the body of an APP1 segment has an Exif orientation other than upright, else NULL.
+ * Viewers turn the picture then, but depth and poses are of the stored pixels. */
+const char *jpeg_exif_note(const uint8_t *body, size_t size);
+
 #endif

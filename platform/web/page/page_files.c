@@ -21,6 +21,7 @@
 #include "../../../tools/mix/mix_sources.h"
 #include "../../../tools/mix/mix_lights.h"
 #include "../../../tools/picture/image.h"
+#include "../../../tools/picture/io_jpeg.h"
 #include "../../../tools/picture/io_pam.h"
 #include "../../../tools/relief/relief_compare.h"
 #include "../../../tools/relief/relief_crowd.h"
@@ -499,6 +500,10 @@ int pam_decode_16(bitmap *out, const uint8_t *data, size_t size, const char *nam
     return pam_decode(out, data, size, name, r);
 }
 int32_t pam_channels(const uint8_t *data, size_t size) { return (void)data, (void)size, 0; }
+
+/* --- io_jpeg.h: no notes of photos -------------------------------------------------------------------------------- */
+
+const char *jpeg_exif_note(const uint8_t *body, size_t size) { return (void)body, (void)size, NULL; }
 
 /* --- budget.h: a slider chooses settings -------------------------------------------------------------------------- */
 
