@@ -149,7 +149,7 @@ static void maps_left_out(void)
         CHECK_MSG(noted("bump or normal map is left out: 1"), "no note on %s", bumps[i]);
     }
     CHECK_LOADS(load_library("newmtl a\ndisp x.png\nnewmtl b\ndecal -s 1 1 1 x.png\n"));
-    CHECK(noted("displacement (disp) or decal is left out: 2") && notes.count == 1);
+    CHECK(noted("disp or decal is left out: 2") && notes.count == 1);
     CHECK_LOADS(load_library("newmtl a\nillum 5\nnewmtl b\nillum 7\nillum 2\nnewmtl c\nillum 1\n"));
     CHECK(noted("mirrors and glasses (illum 3 to 9), drawn without their mirror: 1") && notes.count == 1);
     CHECK_LOADS(load_library("newmtl a\nmap_d\nmap_Ke # none\nbump\nnewmtl b\nmap_Ks x.png\n"));

@@ -157,7 +157,8 @@ static int make_meshes(shown *to, uint64_t *total, const gltf_tree *t, gltf *g)
         if (!make_mesh(g, to[i].mesh))
             return 0;
         to[i].first = g->mesh_first[to[i].mesh];
-        *total += (uint64_t)g->mesh_size[to[i].mesh] * (GLTF_HAS_CROWDS && g->crowd[i].count > 0 ? g->crowd[i].count : 1);
+        const uint32_t places = GLTF_HAS_CROWDS && g->crowd[i].count > 0 ? g->crowd[i].count : 1;
+        *total += (uint64_t)g->mesh_size[to[i].mesh] * places;
         if ((has(g, node, "skin") || has(g, node, "weights")) && !make_own(&to[i], t, g, node))
             return 0;
     }

@@ -380,7 +380,7 @@ void mtl_tell_left_out(model_build *b, const obj_names *names)
                {OBJ_LEFT_MIRROR, "mirrors and glasses (illum 3 to 9), drawn without their mirror"},
                {OBJ_LEFT_SPECTRUM, "materials whose spectrum (Kd or Ke spectral) is left out"},
                {OBJ_LEFT_BUMP, "materials whose bump or normal map is left out"},
-               {OBJ_LEFT_RELIEF, "materials whose displacement (disp) or decal is left out"},
+               {OBJ_LEFT_RELIEF, "materials whose disp or decal is left out"},
                {OBJ_LEFT_OPTION, "materials whose map_Kd is drawn without its options -t or -mm"}};
     size_t k;
     for (k = 0; k < sizeof all / sizeof all[0]; ++k) {
