@@ -84,12 +84,14 @@ lmb_status lmb_direct_tile(lmb_irradiance *inout, const lmb_kernels *kernels, co
 
 #if LMB_FACETS
 
-void lmb_direct_find(lmb_irradiance *one, lmb_lit_pixels *out, const light_tile *to, const lmb_light *light,
-                     const lmb_shadow_map *map)
+uint64_t lmb_direct_find(lmb_irradiance *one, uint64_t *lit, const light_tile *to, const lmb_light *light,
+                         const lmb_shadow_map *map, int is_brief)
 {
     lmb_shadow_query query;
     lmb_shadow_ask(&query, map, light, to->scene, to->view);
-    *out = find_direct(one, &query, to->kernels, to->tile);
+    const lmb_lit_pixels found = find_direct(one, &query, to->kernels, to->tile);
+    *lit = found.lit;
+    return lmb_shadow_unsure(&query, to->tile, &found, is_brief);
 }
 
 void lmb_direct_add(lmb_irradiance *inout, const lmb_kernels *kernels, const lmb_irradiance *one, uint64_t lit)

@@ -330,6 +330,69 @@ NOINLINE int is_in_tip(lmb_shadow_query *query, const lmb_receiver *r, const lit
 
 #endif
 
+#if LMB_FACETS
+
+/* --- pixels of which the map is unsure ---------------------------------------------------------------------------- */
+
+/* Returns 1 if one of the four texels around the place shows a surface in front of the receiver's plane. Otherwise the
+ * surface is flat or convex around the place, and triangles between the texels that shadow the place are rare. */
+static int is_behind_some(lmb_shadow_query *query, const lmb_receiver *r)
+{
+    lit_place at;
+    if (!find_place(&at, query->map, query->light, r->position)) {
+        return 0;
+    }
+    use_face(query, &at);
+    const lmb_view *v = at.view;
+    const int is_wide = v->kind == LMB_PERSPECTIVE;
+    const float noise = noise_of_receiver(query, r), left = at.x - 0.5f, top = at.y - 0.5f; /* above -1 */
+    const map_plane plane = plane_over_texels(v, r);
+    const float side = plane.d + plane.dx * at.x + plane.dy * at.y < 0.0f ? 1.0f : -1.0f;
+    const int32_t x0 = (int32_t)left - (left < 0.0f), y0 = (int32_t)top - (top < 0.0f), last = query->map->size - 1;
+    for (int q = 0; q < 4; ++q) {
+        const int32_t x = mini(maxi(x0 + (q & 1), 0), last), y = mini(maxi(y0 + (q >> 1), 0), last);
+        const float d = texel_depth(&query->window, (uint32_t)x, (uint32_t)y), px = (float)x + 0.5f,
+                    py = (float)y + 0.5f, slope = plane.d + plane.dx * px + plane.dy * py;
+        const float z = is_wide ? v->near_m / d : v->far_m - d * (v->far_m - v->near_m);
+        if (d != 0.0f &&
+            side * (slope * z - (plane.c + plane.cx * px + plane.cy * py)) > noise * absf(slope)) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+enum { MAX_FEW_LIT = 16 };
+
+/* Returns 1 if the map is sure of no lit pixel of a tile, or few are lit. */
+static int has_few_lit(const lmb_lit_pixels *l)
+{
+    return (l->lit & ~(l->doubtful | l->beside)) == 0 || count_bits_64(l->lit) <= MAX_FEW_LIT;
+}
+
+uint64_t lmb_shadow_unsure(lmb_shadow_query *query, const lmb_tile *tile, const lmb_lit_pixels *found, int is_brief)
+{
+    const uint64_t more = found->lit & (found->lit - 1); /* than one */
+    uint64_t out = 0, asked = found->doubtful;
+    if ((more & (more - 1)) == 0) {
+        return found->lit;
+    }
+    if (found->beside != 0 && has_few_lit(found)) {
+        asked |= found->beside;
+    }
+    if (!is_brief) {
+        return asked;
+    }
+    for (; asked != 0; asked &= asked - 1) {
+        const int k = lowest_bit_64(asked);
+        const lmb_receiver r = {tile_vec(tile->position, k), tile_vec(tile->face, k), tile->id[k]};
+        out |= (uint64_t)is_behind_some(query, &r) << k;
+    }
+    return out;
+}
+
+#endif
+
 int lmb_is_lit(lmb_shadow_query *query, const lmb_receiver *r)
 {
     lit_place at;

@@ -15,8 +15,6 @@ static void show_irradiance(lmb_radiance *out, const lmb_irradiance *e) { memcpy
 
 #if LMB_FACETS
 
-enum { MAX_ALONE = 2 /* pixels of a tile that a light reaches on their own */ };
-
 /* Returns those pixels that the light does not reach. */
 static uint64_t trace_pixels(lmb_traversal *t, const lmb_frame *f, const lmb_light *light, const lmb_tile *tile,
                              uint64_t asked)
@@ -53,27 +51,18 @@ NOINLINE uint64_t trace_moved(lmb_band_scratch *s, const lmb_frame *f, const lmb
 }
 
 /* The corner of a room, or triangles of walls, may be smaller than a texel of a shadow map. This traces segments to the
- * light from the pixels that are lit because the map shows only other triangles around them. If the map is sure of no
- * lit pixel of the tile, or few pixels are lit, it also traces those around which the map shows other triangles too: on
- * a ground that continues outside a room, the map shows the ground beside the foot of the wall. Returns the lit
- * pixels. */
-NOINLINE uint64_t without_leaks(lmb_band_scratch *s, const lmb_frame *f, const lmb_light *light, const light_tile *on,
-                                const lmb_lit_pixels *found)
+ * light from the lit pixels of which the map is unsure. Returns those that are in shadow. */
+NOINLINE uint64_t find_leaks(lmb_band_scratch *s, const lmb_frame *f, const lmb_light *light, const light_tile *on,
+                             uint64_t asked)
 {
     lmb_traversal *t = &s->gather.cut.use.traversal;
     const lmb_view *view = on->view;
-    const int count = count_bits_64(found->lit);
-    const uint64_t asked =
-        count <= MAX_ALONE ? found->lit : found->doubtful | (lit_is_unsure(found) ? found->beside : 0);
-    if (asked == 0) {
-        return found->lit;
-    }
     s->counts.corner_segments += (uint64_t)count_bits_64(asked);
     traversal_bound(t);
     t->eye_kind = view->kind == LMB_PERSPECTIVE ? LMB_EYE_PLACE : LMB_EYE_FAR;
     t->eye = view->kind == LMB_PERSPECTIVE ? view->eye : view->back;
     const uint64_t dark = trace_pixels(t, f, light, on->tile, asked);
-    return found->lit & ~dark & ~trace_moved(s, f, light, on->tile, asked & ~dark);
+    return dark | trace_moved(s, f, light, on->tile, asked & ~dark);
 }
 
 /* lmb_light_tile_add without leaks. */
@@ -81,9 +70,12 @@ static lmb_status add_tight(lmb_glossy *glossy, lmb_band_scratch *s, const lmb_r
                             uint32_t i)
 {
     const lmb_light *light = &r->frame.scene->lights[i];
-    lmb_lit_pixels found;
-    lmb_direct_find(&s->indirect, &found, on, light, &r->maps[i]);
-    const uint64_t lit = without_leaks(s, &r->frame, light, on, &found);
+    uint64_t lit;
+    const uint64_t unsure =
+        lmb_direct_find(&s->indirect, &lit, on, light, &r->maps[i], !requires_full_bvh(&r->frame));
+    if (unsure != 0) {
+        lit &= ~find_leaks(s, &r->frame, light, on, unsure);
+    }
     lmb_direct_add(&s->direct, on->kernels, &s->indirect, lit);
     if (glossy == NULL) {
         return LMB_OK;

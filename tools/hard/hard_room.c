@@ -232,6 +232,21 @@ static void look_through_gap(through_gap *out, hard_stage *h, double gap, uint64
     }
 }
 
+/* Segments of a frame that shows balls of small triangles from outside, in light. */
+static double segments_of_balls(hard_stage *h, int light, uint64_t seed)
+{
+    uint64_t rng = seed * 2654435761u + (uint64_t)light;
+    const uint64_t before = h->stats.corner_segments;
+    sealed_room r = make_room(h, BALL, &rng, seed % 2 != 0);
+    put_lamp(h, &r, light, &rng);
+    const double around = hard_uniform(&rng, 0, 2 * PI);
+    hard_look(h, room_place(&r, dvec_of(5 * cos(around), 4, 5 * sin(around))), room_place(&r, dvec_of(0, 1, 0)), 60.0,
+              SIDE);
+    return hard_end(h) && hard_frame(h, LMB_SHOW_DIRECT, MAP, 0.05f) == LMB_OK
+               ? (double)(h->stats.corner_segments - before)
+               : HUGE_VAL;
+}
+
 void hard_room(hard_list *list)
 {
     static const char *const name[ROOMS] = {
@@ -254,6 +269,12 @@ void hard_room(hard_list *list)
         hard_put(list, HARD_MEASURED, name[kind], lit, 0, "px");
     }
     hard_put(list, HARD_MEASURED, "all of them as another picture of a full frame", again, 0, "px");
+    double segments = 0;
+    for (int i = 0; i < SEEDS * LIGHTS; ++i) {
+        segments += segments_of_balls(list->stage, i % LIGHTS, (uint64_t)(1 + i / LIGHTS));
+    }
+    hard_put(list, HARD_MEASURED, "balls from outside: segments traced", segments / (SEEDS * LIGHTS), 30,
+             "a picture");
     for (int i = 0; i < GAPS; ++i) {
         look_through_gap(&gap, list->stage, 0.01, (uint64_t)(1 + i));
     }
