@@ -125,8 +125,9 @@ typedef struct lmb_frame {
     lmb_tree tree;      /* LMB_GROUP_CUT: instead of points and groups; texel NULL: no bounced light */
     const struct lmb_transfer *transfer; /* baked from the scene: all bounced light comes from it. NULL: none */
     lmb_transfer_light transfer_light;   /* laid out for `transfer`, with the scene's materials */
-    lmb_bvh bvh; /* LMB_OCCLUSION_EXACT, shadows of many_lights, and LMB_SHOW_DIRECT if it has room for at most
-                    LMB_TRACED_TRIANGLES; triangle NULL: many_lights cast no shadows, and lit pixels are not traced */
+    lmb_bvh bvh; /* LMB_OCCLUSION_EXACT, shadows of many_lights, and LMB_SHOW_DIRECT or `transfer` if it has room for
+                    at most LMB_TRACED_TRIANGLES; triangle NULL: many_lights cast no shadows, and lit pixels are not
+                    traced */
     lmb_elements elements; /* for bounces > 1, bounced many_lights, and emissive materials; data NULL: none of these */
     lmb_lattice lattice; /* LMB_GATHER_LIVE: of the view's size; tile NULL: none */
     lmb_live *live; /* LMB_GATHER_LIVE, with LMB_GROUP_CUT: for all faces of the maps and all elements; NULL: none */

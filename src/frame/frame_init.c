@@ -167,11 +167,12 @@ static lmb_status place_bvh(lmb_frame *f, frame_block *b)
 #endif
 
 #if LMB_TREES
-/* Does a frame of direct light trace the lit pixels that shadow maps doubt? */
+/* Does a frame without a full BVH trace lit pixels of which shadow maps are unsure? */
 static int traces_direct(const lmb_frame *f)
 {
+    const int has_no_full = f->show == LMB_SHOW_DIRECT || f->transfer != NULL;
     const uint32_t triangles = lmb_scene_triangles(f->scene);
-    return LMB_FACETS && f->show == LMB_SHOW_DIRECT && triangles > 0 && triangles <= LMB_TRACED_TRIANGLES &&
+    return LMB_FACETS && has_no_full && triangles > 0 && triangles <= LMB_TRACED_TRIANGLES &&
            lmb_frame_map_faces(f->scene) > 0;
 }
 #endif

@@ -177,7 +177,8 @@ static inline int requires_bvh(const lmb_frame *f) { return requires_full_bvh(f)
 /* Are lit pixels traced around which shadow maps show other triangles? */
 static inline int requires_traced(const lmb_frame *f)
 {
-    return (requires_full_bvh(f) || (f->show == LMB_SHOW_DIRECT && has_small_bvh(f))) && f->bvh.node_count > 0;
+    return (requires_full_bvh(f) || ((f->show == LMB_SHOW_DIRECT || requires_transfer(f)) && has_small_bvh(f))) &&
+           f->bvh.node_count > 0;
 }
 
 /* The BVH that occludes light of single points, or NULL; and the counts of a thread. */

@@ -160,6 +160,53 @@ static void put_leak(hard_list *l, int (*make)(hard_stage *), const char *name, 
     hard_put(l, HARD_MEASURED, "by cuts", 100.0 * hard_share(mean_seen(s, dark, to, EXACT), exact), 0.001, unit);
 }
 
+/* A closed dome of small triangles on a ground that continues outside, in the sun. */
+static int make_dome(hard_stage *s)
+{
+    enum { ROWS = 24, COLUMNS = 49 };
+    static const double radius = 1.5, pi = 3.14159265358979323846;
+    dvec p[2][2];
+    hard_begin(s, ALBEDO);
+    for (int k = 0; k < ROWS * COLUMNS; ++k) {
+        for (int i = 0; i < 4; ++i) {
+            const int row = k / COLUMNS + i / 2, column = (k + i % 2) % COLUMNS;
+            const double down = 0.5 * pi * row / ROWS, around = 2.0 * pi * column / COLUMNS;
+            p[i / 2][i % 2] = dvec_of(radius * sin(down) * cos(around), row == ROWS ? 0 : radius * cos(down),
+                                      radius * sin(down) * sin(around));
+        }
+        hard_triangle(s, p[0][0], p[0][1], p[1][1]);
+        hard_triangle(s, p[0][0], p[1][1], p[1][0]);
+    }
+    hard_quad(s, dvec_of(0, 0, 0), dvec_of(0, 0, 8), dvec_of(8, 0, 0));
+    hard_sun(s, dvec_of(0.5, -0.6, 0.3), 10.0);
+    return hard_end(s);
+}
+
+/* Pixels inside the dome over a hundredth of the sun's light. */
+static void put_dome(hard_list *l)
+{
+    hard_stage *s = l->stage;
+    const dvec inside = dvec_of(0.1, 0.6, -0.2), outside = dvec_of(3.0, 2.0, 3.0);
+    const lmb_vec3 eyes[2] = {eye_at(inside), eye_at(outside)};
+    double lit = 0.0;
+    baked b;
+    const int ok = make_dome(s) && bake_it(&b, s, eyes, 2, FEW_RECEIVERS);
+    for (int turn = 0; ok && turn < 12; ++turn) {
+        const dvec to = dvec_of(cos(0.6 * turn), turn % 3 - 1.0, sin(0.6 * turn));
+        hard_look(s, inside, dvec_add(inside, to), 80.0, SIDE);
+        if (hard_frame(s, LMB_SHOW_FULL, MAP, EXACT) != LMB_OK) {
+            lit = HUGE_VAL;
+        }
+        for (int i = 0; i < SIDE * SIDE; ++i) {
+            lit += s->out[3 * i] > 0.01f * 10.0f * (float)(ALBEDO / 3.1416);
+        }
+    }
+    if (ok) {
+        end_baked(&b, s);
+    }
+    hard_put(l, HARD_MEASURED, "a sealed dome in the sun: lit pixels", ok ? lit : HUGE_VAL, 0, "px");
+}
+
 /* RMSE of a picture against s->out, %. */
 static double rmse_of(const hard_stage *s, const float *picture)
 {
@@ -194,6 +241,7 @@ static void put_beside(hard_list *l, int (*make)(hard_stage *), const char *name
 
 void hard_baked(hard_list *l)
 {
+    put_dome(l);
     put_leak(l, thin_wall, "baked: behind a thin wall", dvec_of(-1.0, 1.2, 0.5), dvec_of(-0.4, 0.8, -1), 1.0);
     put_leak(l, cupboard, "baked: in a closed cupboard", dvec_of(-1.2, 0.6, -1.1), dvec_of(-1.3, 0.3, -1.5), 1.2);
     put_beside(l, box_on_floor, "baked: a box on a floor, against cuts", dvec_of(0.8, 0.9, 0.8),
