@@ -26,7 +26,7 @@ PAGE_FLAGS := --target=wasm32-wasi -isystem $(WASI)/include/wasm32-wasi -std=c99
 # demo, and unused stacks.
 PAGE_LINK := wasm-ld -O2 --compress-relocations --no-entry --import-memory --shared-memory --no-check-features \
              --max-memory=2147483648 --gc-sections --strip-all --export=__stack_pointer --export-table --growable-table
-PAGE_MAIN := -mllvm -inline-threshold=-30 -z stack-size=1048576 --global-base=262144 --initial-memory=33554432 --export=__wasm_call_ctors
+PAGE_MAIN := -mllvm -inline-threshold=-30 -mllvm -enable-merge-functions -z stack-size=1048576 --global-base=262144 --initial-memory=33554432 --export=__wasm_call_ctors
 PAGE_SIDE := -z stack-size=16 --global-base
 # Optimises hot code of frames for speed; the rest, and code that runs once a scene or for few pixels, for size.
 PAGE_FAST := src/raster/% src/transfer/% src/occlusion/% src/direct/shadow.c
