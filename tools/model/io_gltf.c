@@ -165,22 +165,6 @@ static int make_meshes(shown *to, uint64_t *total, const gltf_tree *t, gltf *g)
     return 1;
 }
 
-void gltf_add_instances(gltf *g, const gltf_tree *t, const gltf_placing *p)
-{
-    const uint32_t size = g->mesh_size[p->mesh];
-    for (uint32_t k = 0; k < size; ++k) {
-        const uint32_t n = g->b->instance_count++;
-        lmb_instance *to = &g->b->instances[n];
-        g->instance_node[n] = p->mover;
-        g->instance_shown[n] = p->order;
-        g->instance_from[n] = t->order[p->order];
-        for (int c = 0; c < 16; ++c)
-            to->to_world.m[c] = (float)p->world->m[c];
-        to->mesh = p->first + k;
-        to->material = g->mesh_material[to->mesh];
-    }
-}
-
 /* Makes one instance per node, place and primitive; posed meshes are already in world space. */
 static int add_instances(const gltf_tree *t, gltf *g)
 {

@@ -141,7 +141,7 @@ typedef struct gltf_placing {
     const gltf_matrix *world; /* of the node */
 } gltf_placing;
 
-/* io_gltf.c: adds an instance for each primitive. */
+/* io_gltf_tree.c: adds an instance for each primitive. */
 void gltf_add_instances(gltf *g, const gltf_tree *t, const gltf_placing *p);
 
 #ifdef GLTF_WITHOUT_CROWDS

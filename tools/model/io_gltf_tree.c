@@ -1,4 +1,4 @@
-/* io_gltf_tree.c: the nodes of one scene of a glTF document in drawing order, with world transforms. */
+/* io_gltf_tree.c: the nodes of one scene of a glTF document in drawing order, with world transforms, and instances. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -243,4 +243,20 @@ int gltf_make_tree(gltf_tree *t, gltf *g)
     t->placed = (uint8_t *)build_scratch(g->b, g->nodes.count, 1);
     return t->order && t->parent && t->world && t->turn && t->hidden && t->placed && traversal(t, g) &&
            place_nodes(t, g);
+}
+
+void gltf_add_instances(gltf *g, const gltf_tree *t, const gltf_placing *p)
+{
+    const uint32_t size = g->mesh_size[p->mesh];
+    for (uint32_t k = 0; k < size; ++k) {
+        const uint32_t n = g->b->instance_count++;
+        lmb_instance *to = &g->b->instances[n];
+        g->instance_node[n] = p->mover;
+        g->instance_shown[n] = p->order;
+        g->instance_from[n] = t->order[p->order];
+        for (int c = 0; c < 16; ++c)
+            to->to_world.m[c] = (float)p->world->m[c];
+        to->mesh = p->first + k;
+        to->material = g->mesh_material[to->mesh];
+    }
 }
