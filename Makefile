@@ -844,7 +844,7 @@ page-size: ## the page of platform/web compiles and is small enough to load
 
 # The page leaves out facets, so the program that computes its hashes does too.
 web-check: $(TOOL) ## the page of platform/web in headless Chromium: clicks, drags, keys, files, hashes
-	+@$(MAKE) BUILD='$(BUILD)/page-native' CFLAGS='$(CFLAGS) -DLMB_FACETS=0' '$(BUILD)/page-native/default/page-hash'
+	+@$(MAKE) BUILD='$(BUILD)/page-native' CFLAGS='$(CFLAGS) -DLMB_FACETS=0 -DLMB_LIVE=0' '$(BUILD)/page-native/default/page-hash'
 	+@MAKE='$(MAKE)' BUILD='$(BUILD)' PAGE_HASH='$(BUILD)/page-native/default/page-hash' $(IN_SH) tests/scripts/web_check.sh
 
 .PHONY: three-check

@@ -46,7 +46,6 @@ const render = (file, ...more) => ['render', file, '-o', 'x.ppm', '--size', '160
                                    ...more];
 const frames = [
     { show: 0, light: null, words: render('demo', '--quality', 'draft') },
-    { show: 0, light: null, words: render('demo', '--quality', 'draft', '--gather', 'live') },
     { show: 2, light: [0.5, 2.6, 0.5], words: render('demo', '--quality', 'draft') },
     { show: 0, light: [0.5, 2.6, 0.5], words: render('demo', '--transfer', 'demo.lmt') },
     { show: 0, light: null, words: render('small_room/scene.gltf', '--transfer', 'small_room.lmt') },

@@ -458,8 +458,9 @@ static lmb_frame_settings settings_of(const render_job *j, const lmb_scene *bare
 /* Reports options that the library would refuse. */
 static int refuse(const lmb_frame_settings *s, report *r)
 {
-    if (s->gather_step == LMB_GATHER_LIVE && s->quality == LMB_QUALITY_FIXED) {
-        return report_fail_usage(r, "--gather live needs --group method=cut");
+    if (s->gather_step == LMB_GATHER_LIVE && (!LMB_LIVE || s->quality == LMB_QUALITY_FIXED)) {
+        return report_fail_usage(r, LMB_LIVE ? "--gather live needs --group method=cut"
+                                             : "--gather live: this build leaves it out (LMB_LIVE=0)");
     }
     return s->quality == LMB_QUALITY_FIXED
                ? report_fail(
