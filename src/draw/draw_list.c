@@ -214,16 +214,24 @@ static void list_quad(const lmb_draw_pass *pass, uint32_t a, uint32_t b, uint32_
     list_triangle(pass, a, c, d, flat, 6 | chosen);
 }
 
-static void list_fan(const lmb_draw_pass *pass, int32_t primitive, uint32_t count)
+/* Draws quad n / 2 if it is an upright rectangle that pass->fills names. */
+#if LMB_DRAW_LANES
+static int list_rectangle(const lmb_draw_pass *pass, int32_t primitive, uint32_t n)
 {
-    const int is_polygon = primitive == LMB_DRAW_POLYGON;
-    for (uint32_t i = 2; i < count; ++i) {
-        const int sides = 2 | (i == 2) | (i + 1 == count) << 2 | SIDES_CHOSEN;
-        if (!is_polygon) {
-            *pass->dashed = 0;
-        }
-        list_triangle(pass, 0, i - 1, i, is_polygon ? 0 : i, is_polygon ? sides : SIDES_ALL);
+    const uint32_t i = primitive == LMB_DRAW_QUADS ? 2 * n : n,
+                   at[4] = {i, i + 1, primitive == LMB_DRAW_QUADS ? i + 2 : i + 3,
+                            primitive == LMB_DRAW_QUADS ? i + 3 : i + 2};
+    return pass->fills != 0 && (n & 1u) == 0 && lmb_draw_quick_rectangle(pass, at, i + 3);
+}
+#endif
+
+static void list_fan_triangle(const lmb_draw_pass *pass, int is_polygon, uint32_t i, uint32_t count)
+{
+    const int sides = 2 | (i == 2) | (i + 1 == count) << 2 | SIDES_CHOSEN;
+    if (!is_polygon) {
+        *pass->dashed = 0;
     }
+    list_triangle(pass, 0, i - 1, i, is_polygon ? 0 : i, is_polygon ? sides : SIDES_ALL);
 }
 
 static void list_triangles(const lmb_draw_pass *pass, uint32_t count)
@@ -237,31 +245,58 @@ static void list_triangles(const lmb_draw_pass *pass, uint32_t count)
     }
 }
 
+/* Draws triangle n of a strip, a fan or a polygon, or a quad from triangle n on. Returns the number of the next one. */
+static uint32_t list_other(const lmb_draw_pass *pass, int32_t primitive, uint32_t n, uint32_t count)
+{
+    const uint32_t i = primitive == LMB_DRAW_QUADS ? 4 * (n >> 1) + 3 : 2 * (n >> 1) + 3, odd = n & 1u;
+    const uint32_t c = primitive == LMB_DRAW_QUADS ? i - 1 : i, d = primitive == LMB_DRAW_QUADS ? i : i - 1;
+    switch (primitive) {
+    case LMB_DRAW_TRIANGLE_STRIP:
+        *pass->dashed = 0;
+        list_triangle(pass, n + odd, n + 1 - odd, n + 2, n + 2, SIDES_ALL);
+        return n + 1;
+    case LMB_DRAW_QUADS: case LMB_DRAW_QUAD_STRIP:
+        if (odd != 0) { /* a batch drew the first half */
+            list_triangle(pass, i - 3, c, d, i, 6);
+            return n + 1;
+        }
+        list_quad(pass, i - 3, i - 2, c, d, i, primitive == LMB_DRAW_QUADS ? SIDES_CHOSEN : 0);
+        return n + 2;
+    default:
+        list_fan_triangle(pass, primitive == LMB_DRAW_POLYGON, n + 2, count);
+        return n + 1;
+    }
+}
+
+/* Strips, fans, polygons and quads of `count` places in the list: small triangles in batches; others, and some after
+ * each of them, one by one. */
+static void list_others(const lmb_draw_pass *pass, int32_t primitive, uint32_t count)
+{
+    const int quads = primitive == LMB_DRAW_QUADS || primitive == LMB_DRAW_QUAD_STRIP;
+    const uint32_t sides = count < 2 ? 0 : count - 2,
+                   past = primitive == LMB_DRAW_QUADS ? count / 4 * 2 : quads ? sides / 2 * 2 : sides;
+    for (uint32_t n = 0; n < past;) {
+#if LMB_DRAW_LANES
+        if (pass->few != NULL && (pass->draws & DRAW_SMALLS) != 0 && n >= pass->now->small_from) {
+            if (quads && list_rectangle(pass, primitive, n)) {
+                n += 2;
+                continue;
+            }
+            n = lmb_draw_quick_others(pass, primitive, n, past);
+        }
+#endif
+        if (n < past) {
+            n = list_other(pass, primitive, n, count);
+        }
+    }
+}
+
 static void list_areas(const lmb_draw_pass *pass, int32_t primitive, uint32_t count)
 {
-    switch (primitive) {
-    case LMB_DRAW_TRIANGLES:
+    if (primitive == LMB_DRAW_TRIANGLES) {
         list_triangles(pass, count);
-        break;
-    case LMB_DRAW_TRIANGLE_STRIP:
-        for (uint32_t i = 2; i < count; ++i) {
-            *pass->dashed = 0;
-            list_triangle(pass, i - 2 + (i & 1u), i - 1 - (i & 1u), i, i, SIDES_ALL);
-        }
-        break;
-    case LMB_DRAW_QUADS:
-        for (uint32_t i = 3; i < count; i += 4) {
-            list_quad(pass, i - 3, i - 2, i - 1, i, i, SIDES_CHOSEN);
-        }
-        break;
-    case LMB_DRAW_QUAD_STRIP:
-        for (uint32_t i = 3; i < count; i += 2) {
-            list_quad(pass, i - 3, i - 2, i, i - 1, i, 0);
-        }
-        break;
-    default:
-        list_fan(pass, primitive, count);
-        break;
+    } else {
+        list_others(pass, primitive, count);
     }
 }
 
@@ -365,7 +400,7 @@ lmb_status lmb_draw_list(const lmb_draw_target *target, const lmb_draw_state *st
 {
     const lmb_status status = list_check(target, state, vertices, primitive, indices);
     uint32_t dashed = 0;
-    draw_primitive now = {{0, 0, 0}, 0, 0};
+    draw_primitive now = {{0, 0, 0}, 0, 0, 0};
     lmb_draw_pass pass;
     draw_vertex few[DRAW_FEW];
     if (status != LMB_OK) {

@@ -13,7 +13,8 @@
 #if LMB_DRAW
 enum { QUICK_24_8 = 16 * 256 /* largest side of the box of small triangles */ };
 enum { QUICK_AHEAD = 24 /* indices */, QUICK_KNOWN = 16 /* more take too much stack beside a kernel's vectors */,
-       QUICK_QUEUE = 6 /* triangles */, QUICK_REST = 8 /* triangles after one that no batch can draw */ };
+       QUICK_QUEUE = 6 /* triangles */, QUICK_REST = 8, /* triangles after one that no batch can draw; */
+       QUICK_MOST_REST = 128 /* at most, as the rest doubles each time that fewer were drawn before */ };
 #define QUICK_ABSURD  1e30f
 #define QUICK_LEAST_W 1e-12f /* as in draw_cut.c */
 
@@ -465,6 +466,34 @@ static void quick_set_small(lmb_draw_small *b, const lmb_draw_pass *pass)
     b->drawn = 0;
 }
 
+/* Draws the batch. Returns how many triangles come before the first that needs another path. */
+static inline uint32_t quick_batch(const lmb_draw_pass *pass, lmb_draw_small *b)
+{
+    for (uint32_t k = b->count; k < LMB_DRAW_SMALLS; ++k) {
+        for (int i = 0; i < 4; ++i) {
+            b->at[i][k] = b->at[i][0];
+        }
+    }
+    return pass->state->kernels->draw_small(b);
+}
+
+/* Counts triangles that a batch drew. */
+static void quick_count_small(const lmb_draw_pass *pass, const lmb_draw_small *b, uint32_t triangles)
+{
+    if (pass->stats != NULL) {
+        pass->stats->triangles += triangles;
+        pass->stats->triangles_drawn += b->drawn;
+    }
+}
+
+/* Triangle n needs another path; batches drew `drawn` before it. Sets the triangle from which a batch is tried. */
+static void quick_set_rest(const lmb_draw_pass *pass, uint32_t n, uint32_t drawn)
+{
+    draw_primitive *now = pass->now;
+    now->rest = drawn >= now->rest ? QUICK_REST : mini((int32_t)(2 * now->rest), QUICK_MOST_REST);
+    now->small_from = n + now->rest;
+}
+
 /* Draws small triangles by the state's kernels. Returns the first that needs another path. */
 NOINLINE uint32_t quick_small(const lmb_draw_pass *pass, uint32_t i, uint32_t count)
 {
@@ -474,46 +503,71 @@ NOINLINE uint32_t quick_small(const lmb_draw_pass *pass, uint32_t i, uint32_t co
     while (i < count) {
         const uint32_t left = (count - i + 2) / 3;
         b.count = left < LMB_DRAW_SMALLS ? left : LMB_DRAW_SMALLS;
-        for (uint32_t k = 0; k < LMB_DRAW_SMALLS; ++k) {
-            const int32_t at = (int32_t)(i - 2 + 3 * (k < b.count ? k : 0));
+        for (uint32_t k = 0; k < b.count; ++k) {
+            const int32_t at = (int32_t)(i - 2 + 3 * k);
             b.at[0][k] = at;
             b.at[1][k] = at + 1;
-            b.at[2][k] = at + 2;
+            b.at[2][k] = b.at[3][k] = at + 2;
         }
-        const uint32_t done = pass->state->kernels->draw_small(&b);
+        const uint32_t done = quick_batch(pass, &b);
         i += 3 * done;
         if (done < b.count) {
-            pass->now->small_from = i + 3 * QUICK_REST;
+            quick_set_rest(pass, (i - 2) / 3, (i - first) / 3);
             break;
         }
     }
-    if (pass->stats != NULL) {
-        pass->stats->triangles += ((i < count ? i : count) - first + 2) / 3;
-        pass->stats->triangles_drawn += b.drawn;
-    }
+    quick_count_small(pass, &b, ((i < count ? i : count) - first + 2) / 3);
     return i;
 }
-#endif
 
-/* Small triangles in batches; a few others, and more after each of them, one by one. */
-static uint32_t quick_streams(const lmb_draw_pass *pass, uint32_t i, uint32_t count)
+/* The places of triangle n in the list, and the place of its colour if it is flat. */
+static inline void quick_places(uint32_t out[4], int32_t primitive, uint32_t n)
 {
-#if LMB_DRAW_LANES
-    while ((pass->draws & DRAW_SMALLS) != 0 && i < count) {
-        if (i >= pass->now->small_from) {
-            i = quick_small(pass, i, count);
-        }
-        if (i < count) {
-            const uint32_t end = pass->now->small_from < count ? pass->now->small_from : count;
-            i = quick_stream(pass, i, end);
-            if (i < end) {
-                return i;
+    const uint32_t quad = n >> 1, odd = n & 1u;
+    switch (primitive) {
+    case LMB_DRAW_TRIANGLES:
+        out[0] = 3 * n, out[1] = 3 * n + 1, out[2] = out[3] = 3 * n + 2;
+        break;
+    case LMB_DRAW_TRIANGLE_STRIP:
+        out[0] = n + odd, out[1] = n + 1 - odd, out[2] = out[3] = n + 2;
+        break;
+    case LMB_DRAW_QUADS:
+        out[0] = 4 * quad, out[1] = 4 * quad + 1 + odd, out[2] = 4 * quad + 2 + odd, out[3] = 4 * quad + 3;
+        break;
+    case LMB_DRAW_QUAD_STRIP:
+        out[0] = 2 * quad, out[1] = odd != 0 ? 2 * quad + 3 : 2 * quad + 1;
+        out[2] = odd != 0 ? 2 * quad + 2 : 2 * quad + 3, out[3] = 2 * quad + 3;
+        break;
+    default:
+        out[0] = 0, out[1] = n + 1, out[2] = n + 2, out[3] = primitive == LMB_DRAW_POLYGON ? 0 : n + 2;
+        break;
+    }
+}
+
+uint32_t lmb_draw_quick_others(const lmb_draw_pass *pass, int32_t primitive, uint32_t n, uint32_t count)
+{
+    const uint32_t first = n, vertices = pass->vertices->count;
+    lmb_draw_small b;
+    quick_set_small(&b, pass);
+    for (int is_good = 1; is_good && n < count;) {
+        for (b.count = 0; b.count < LMB_DRAW_SMALLS && n + b.count < count && is_good; b.count += (uint32_t)is_good) {
+            uint32_t place[4];
+            quick_places(place, primitive, n + b.count);
+            for (int i = 0; i < 4; ++i) {
+                const uint32_t at = draw_index(pass, place[i]);
+                is_good &= at < vertices;
+                b.at[i][b.count] = (int32_t)at;
             }
         }
+        const uint32_t done = b.count != 0 ? quick_batch(pass, &b) : 0;
+        is_good &= done == b.count;
+        n += done;
     }
-#endif
-    return quick_stream(pass, i, count);
+    quick_count_small(pass, &b, n - first);
+    quick_set_rest(pass, n, n - first);
+    return n;
 }
+#endif
 
 NOINLINE uint32_t quick_indexed(const lmb_draw_pass *pass, uint32_t i, uint32_t count)
 {
@@ -533,9 +587,37 @@ NOINLINE uint32_t quick_indexed(const lmb_draw_pass *pass, uint32_t i, uint32_t 
     return i;
 }
 
+/* The list's end, or the triangle from which a batch is tried. */
+static inline uint32_t quick_end(const lmb_draw_pass *pass, uint32_t count)
+{
+    return pass->now->small_from < count / 3 ? 3 * pass->now->small_from + 2 : count;
+}
+
+/* Small triangles in batches; others, and some after each of them, one by one. */
+static uint32_t quick_batches(const lmb_draw_pass *pass, uint32_t i, uint32_t count)
+{
+    const int is_indexed = pass->indices != NULL;
+#if LMB_DRAW_LANES
+    while ((pass->draws & DRAW_SMALLS) != 0 && i < count) {
+        if (i >= quick_end(pass, count)) {
+            i = is_indexed ? 3 * lmb_draw_quick_others(pass, LMB_DRAW_TRIANGLES, (i - 2) / 3, count / 3) + 2
+                           : quick_small(pass, i, count);
+        }
+        if (i < count) {
+            const uint32_t end = quick_end(pass, count);
+            i = is_indexed ? quick_indexed(pass, i, end) : quick_stream(pass, i, end);
+            if (i < end) {
+                return i;
+            }
+        }
+    }
+#endif
+    return is_indexed ? quick_indexed(pass, i, count) : quick_stream(pass, i, count);
+}
+
 uint32_t lmb_draw_quick_run(const lmb_draw_pass *pass, uint32_t i, uint32_t count)
 {
-    return pass->indices != NULL ? quick_indexed(pass, i, count) : quick_streams(pass, i, count);
+    return quick_batches(pass, i, count);
 }
 
 /* --- rectangles --------------------------------------------------------------------------------------------------- */

@@ -190,7 +190,7 @@ LANE_PART void small_set_colours(small_setup *s, const lmb_draw_small *b, uint32
         lanei_store((int32_t *)s->codes, lanei_splat((int32_t)codes));
         return;
     }
-    const lanei last = lanei_gather_rgba(b->colours, lanei_load(b->at[2] + first));
+    const lanei last = lanei_gather_rgba(b->colours, lanei_load(b->at[is_flat ? 3 : 2] + first));
     lanei_store((int32_t *)s->codes, last);
     for (int k = 0; k < 2 && !is_flat; ++k) {
         const lanei other = lanei_gather_rgba(b->colours, lanei_load(b->at[k] + first));

@@ -212,7 +212,7 @@ typedef struct lmb_draw_small {
     int32_t depth_step, colour_stride;
     int32_t swaps; /* 1: blue is the first byte in memory */
     uint32_t count, drawn; /* triangles, and those of them that may show so far */
-    int32_t at[3][LMB_DRAW_SMALLS]; /* vertices; all are valid */
+    int32_t at[4][LMB_DRAW_SMALLS]; /* vertices, and the one whose colour is that of a flat triangle; all are valid */
 } lmb_draw_small;
 #endif
 
