@@ -19,6 +19,8 @@ enum {
     GL_LIGHTS = 8,
     GL_CLIP_PLANES = LMB_DRAW_PLANES,
     GL_BATCH = 4092, /* vertices in the batch: whole triangles, quads and pairs, so a multiple of 12 */
+    GL_ORDERS = 3 * GL_BATCH,
+    GL_SLOTS = 8192, /* a power of two */
     GL_STACK = 32,   /* matrices of a stack */
     GL_ATTRIB_STACK = 16,
     GL_LEVELS = 15,
@@ -282,6 +284,13 @@ typedef struct gl_context {
     /* Look k is the attributes of vertices look_from[k] .. look_from[k + 1] - 1. */
     gl_vertex look[GL_BATCH + 4];
     int32_t look_from[GL_BATCH + 4], looks;
+    /* Runs of strips, fans and quad strips wait as triangles or quads: places of vertices. 0: vertices in order. */
+    uint32_t order_of[GL_ORDERS];
+    int32_t orders;
+    GLenum ordered; /* GL_TRIANGLES or GL_QUADS */
+    int32_t last_at; /* with orders of indexed arrays: the vertex of the last element; -1: the last vertex */
+    uint32_t name_of[GL_BATCH + 4]; /* the element of an indexed array that a vertex of the batch is */
+    int32_t slot_of[GL_SLOTS];      /* the vertex that an element may be */
     int32_t open; /* glVertex may append to the last look while count < open; 0: only gl_vertex_at may append */
     gl_made made[GL_BATCH + 4];
     float eye_of[GL_BATCH + 4][4];
@@ -408,6 +417,9 @@ void gl_flush_vertices(gl_context *c); /* draws the batch */
 void gl_make_vertices(gl_context *c);  /* transforms and lights the batch, before a state changes */
 void gl_vertex_at(gl_context *c, const float at[4]);
 void gl_vertices_at(gl_context *c, const gl_word *w, int32_t count, int32_t words); /* 3 (w is 1) or 4 words each */
+int gl_can_order(const gl_context *c, GLenum primitive); /* 1: the batch may be in order_of */
+void gl_light_last(gl_context *c, int32_t at); /* GL_COLOR_MATERIAL takes the colour of vertex `at` */
+int32_t gl_look_of(const gl_context *c, int32_t i); /* the look of vertex i */
 void gl_update_matrices(gl_context *c);
 void gl_set_draw(gl_context *c); /* derives draw.h's state from the context's */
 int gl_draw_func(GLenum func);

@@ -118,6 +118,13 @@ static void light_track(gl_context *c, const float colour[4])
     }
 }
 
+void gl_light_last(gl_context *c, int32_t at)
+{
+    if (at >= 0 && at < c->count && gl_is_on(c, CAP_COLOR_MATERIAL)) {
+        light_track(c, c->look[gl_look_of(c, at)].colour);
+    }
+}
+
 OP(colour_material)
 {
     const GLenum face = w[0].u, mode = w[1].u;

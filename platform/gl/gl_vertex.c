@@ -65,7 +65,8 @@ OP(begin)
     }
     GL_FAIL(w[0].u > GL_POLYGON, GL_INVALID_ENUM, )
     const int is_static = gl_is_on(c, CAP_BOUNCED) && (c->list_depth > 0 || c->reads_static);
-    if (c->count > 0 && (!(c->primitive == w[0].u && vertex_is_apart(w[0].u)) || is_static != c->is_static)) {
+    const int waits = vertex_is_apart(c->primitive) ? c->orders == 0 : c->orders > 0;
+    if (c->count > 0 && (c->primitive != w[0].u || !waits || is_static != c->is_static)) {
         gl_flush_vertices(c);
     }
     c->is_static = is_static;
@@ -90,8 +91,8 @@ static void vertex_append(gl_context *c, const float at[4], const gl_vertex *loo
     memcpy(c->at_of[c->count++], at, 4 * sizeof *at);
 }
 
-/* The look of vertex i, found from the end. */
-static int32_t vertex_look(const gl_context *c, int32_t i)
+/* Found from the end. */
+int32_t gl_look_of(const gl_context *c, int32_t i)
 {
     int32_t k = c->looks - 1;
     while (k > 0 && c->look_from[k] > i) {
@@ -102,12 +103,88 @@ static int32_t vertex_look(const gl_context *c, int32_t i)
 
 static gl_vertex vertex_copy(const gl_context *c, int32_t i)
 {
-    gl_vertex v = c->look[vertex_look(c, i)];
+    gl_vertex v = c->look[gl_look_of(c, i)];
     memcpy(v.at, c->at_of[i], sizeof v.at);
     return v;
 }
 
-/* Draws the full batch, and keeps the vertices that later primitives share. */
+/* The looks of the batch's vertices `from` .. `to` - 1 need no shader for their texture coordinates. */
+static int vertex_looks_are_plain(const gl_context *c, int32_t from)
+{
+    const gl_matrices *s = &c->texture[0];
+    const int textured = c->s.texture.unit[0].on != 0;
+    if (textured && c->s.texture.unit[0].gen != 0) {
+        return 0;
+    }
+    for (int32_t k = c->looks - 1; k >= 0 && textured; --k) {
+        float t[4];
+        gl_matrix_point(t, s->m[s->top], c->look[k].tex[0]);
+        if (t[3] != 1.0f) {
+            return 0;
+        }
+        if (c->look_from[k] <= from) {
+            return 1;
+        }
+    }
+    return 1;
+}
+
+int gl_can_order(const gl_context *c, GLenum p)
+{
+    return c->s.polygon.front == GL_FILL && c->s.polygon.back == GL_FILL && c->render_mode == GL_RENDER &&
+           c->query == NULL && !gl_is_on(c, CAP_BOUNCED) && p >= GL_TRIANGLES && p <= GL_QUAD_STRIP &&
+           (p != GL_QUAD_STRIP || c->s.lighting.shade != GL_FLAT); /* another vertex has a quad's flat colour */
+}
+
+/* Puts the strip, fan or quad strip of vertices `from` .. count - 1 into order_of. Returns 0 if it lacks room. */
+static int vertex_order(gl_context *c, int32_t from)
+{
+    const uint32_t a = (uint32_t)from, n = (uint32_t)(c->count - from);
+    const int quads = c->primitive == GL_QUAD_STRIP;
+    uint32_t *to = &c->order_of[c->orders];
+    if (c->orders + (quads ? 2 : 3) * (int32_t)n > GL_ORDERS) {
+        return 0;
+    }
+    c->ordered = quads ? GL_QUADS : GL_TRIANGLES;
+    for (uint32_t i = 2; i < n && !quads; ++i, to += 3) {
+        const uint32_t odd = c->primitive == GL_TRIANGLE_STRIP ? i & 1u : 0;
+        to[0] = c->primitive == GL_TRIANGLE_STRIP ? a + i - 2 + odd : a;
+        to[1] = a + i - 1 - odd;
+        to[2] = a + i;
+    }
+    for (uint32_t i = 3; i < n && quads; i += 2, to += 4) {
+        to[0] = a + i - 3;
+        to[1] = a + i - 2;
+        to[2] = a + i;
+        to[3] = a + i - 1;
+    }
+    c->orders = (int32_t)(to - c->order_of);
+    return 1;
+}
+
+/* Draws the runs before the current one, which moves to the start of the batch. */
+static void vertex_move_down(gl_context *c)
+{
+    const int32_t from = c->begin_at, n = c->count - from, k = gl_look_of(c, from), looks = c->looks - k,
+                  made = maxi(c->made_count - from, 0);
+    c->count = from;
+    c->made_count = mini(c->made_count, from);
+    c->looks = k;
+    gl_flush_vertices(c);
+    memmove(c->at_of, c->at_of + from, (size_t)n * sizeof c->at_of[0]);
+    memmove(c->look, c->look + k, (size_t)looks * sizeof c->look[0]);
+    memmove(c->made, c->made + from, (size_t)made * sizeof c->made[0]);
+    for (int32_t i = 0; i < looks; ++i) {
+        c->look_from[i] = maxi(c->look_from[k + i] - from, 0);
+    }
+    c->count = n;
+    c->looks = looks;
+    c->made_count = made;
+    c->begin_at = 0;
+}
+
+/* Draws the full batch, and keeps the vertices that later primitives share. Those are only made if they were before, as
+ * the material may have changed since. */
 static void vertex_turn_over(gl_context *c)
 {
     const GLenum p = c->primitive;
@@ -117,10 +194,17 @@ static void vertex_turn_over(gl_context *c)
         c->begin_at = 0;
         return;
     }
+    if (c->begin_at > 0) {
+        vertex_move_down(c);
+        return;
+    }
     const int n = c->count, first = p == GL_TRIANGLE_FAN || p == GL_POLYGON ? 0 : n - 2;
     const gl_vertex keep[2] = {first == 0 ? c->look[0] : vertex_copy(c, first), vertex_copy(c, n - 1)};
     const float from[4] = {c->at_of[first][0], c->at_of[first][1], c->at_of[first][2], c->at_of[first][3]};
-    gl_make_vertices(c);
+    const int is_made = c->made_count > 0 || !gl_can_order(c, p);
+    if (is_made) {
+        gl_make_vertices(c);
+    }
     const gl_made made[2] = {c->made[first], c->made[n - 1]};
     if (p == GL_LINE_LOOP && !c->is_continued) {
         c->loop_first = c->look[0];
@@ -135,7 +219,7 @@ static void vertex_turn_over(gl_context *c)
     }
     c->made[c->count] = made[1];
     vertex_append(c, keep[1].at, &keep[1]);
-    c->made_count = c->count;
+    c->made_count = is_made ? c->count : 0;
 }
 
 void gl_vertex_at(gl_context *c, const float at[4])
@@ -185,6 +269,19 @@ void gl_vertices_at(gl_context *c, const gl_word *w, int32_t count, int32_t word
     }
 }
 
+/* A strip, a fan or a quad strip waits for others. Returns 0 if it cannot. */
+static int vertex_end_run(gl_context *c)
+{
+    const int plain = vertex_looks_are_plain(c, c->begin_at);
+    if (plain && vertex_order(c, c->begin_at)) {
+        return 1;
+    }
+    if (c->begin_at > 0) {
+        vertex_move_down(c);
+    }
+    return plain && vertex_order(c, 0);
+}
+
 OP(end)
 {
     if (w != NULL && w[0].u != 0 && c->skips) {
@@ -206,6 +303,8 @@ OP(end)
     } else if (c->primitive == GL_LINE_LOOP && c->is_continued) {
         vertex_append(c, c->loop_first.at, &c->loop_first);
         c->primitive = GL_LINE_STRIP;
+    } else if (gl_can_order(c, c->primitive) && vertex_end_run(c)) {
+        return;
     }
     gl_flush_vertices(c);
 }
@@ -249,10 +348,13 @@ static void vertex_make(gl_context *c, const float at[4], const gl_vertex *v, gl
 void gl_make_vertices(gl_context *c)
 {
     gl_update_matrices(c);
-    int32_t k = c->made_count < c->count ? vertex_look(c, c->made_count) : 0;
+    int32_t k = c->made_count < c->count ? gl_look_of(c, c->made_count) : 0;
     for (int i = c->made_count; i < c->count; ++i) {
         k += k + 1 < c->looks && c->look_from[k + 1] <= i;
         vertex_make(c, c->at_of[i], &c->look[k], &c->made[i]);
+    }
+    if (gl_is_on(c, CAP_LIGHTING) && c->made_count < c->count) {
+        gl_light_last(c, c->last_at);
     }
     c->made_count = c->count;
 }
@@ -510,7 +612,14 @@ static void vertex_whole_polygon(gl_context *c, uint32_t n)
 /* Draws one by one: modes other than fill, lines, points, selection, feedback. */
 static void vertex_each_primitive(gl_context *c)
 {
-    const uint32_t n = (uint32_t)c->count;
+    const uint32_t n = (uint32_t)c->count, *o = c->order_of;
+    if (c->orders > 0) {
+        const uint32_t each = c->ordered == GL_QUADS ? 4 : 3;
+        for (uint32_t i = 0; i + each <= (uint32_t)c->orders; i += each, o += each) {
+            vertex_polygon_flat(c, o, (int)each, o[each - 1]);
+        }
+        return;
+    }
     switch (c->primitive) {
     case GL_POINTS:
         for (uint32_t i = 0; i < n; ++i) {
@@ -571,7 +680,7 @@ static int vertex_area_mode(const gl_context *c)
     static const int modes[10] = {-1, -1, -1, -1, LMB_DRAW_TRIANGLES, LMB_DRAW_TRIANGLE_STRIP, LMB_DRAW_TRIANGLE_FAN,
                                   LMB_DRAW_QUADS, LMB_DRAW_QUAD_STRIP, -1};
     const int fills = c->s.polygon.front == GL_FILL && c->s.polygon.back == GL_FILL && c->render_mode == GL_RENDER;
-    return fills ? modes[c->primitive] : -1;
+    return fills ? modes[c->orders > 0 ? c->ordered : c->primitive] : -1;
 }
 
 /* draw.h's primitive if the batch is lines or points that need no values of their own for each; -1: not. */
@@ -704,6 +813,7 @@ static void vertex_set_lit(gl_context *c)
         }
     }
     gl_light_codes(c, c->made_count);
+    gl_light_last(c, c->last_at);
 }
 
 /* Sets the sizes of a mode of vertex_line_mode. */
@@ -735,7 +845,8 @@ static int vertex_plain(gl_context *c, int mode)
     if (gl_is_on(c, CAP_LIGHTING)) {
         vertex_set_lit(c);
     }
-    (void)lmb_draw_list(&c->target, &c->draw, &v, mode, NULL, NULL);
+    const lmb_draw_indices order = {c->order_of, (uint32_t)c->orders, LMB_INDEX_U32};
+    (void)lmb_draw_list(&c->target, &c->draw, &v, mode, c->orders > 0 ? &order : NULL, NULL);
     return 1;
 }
 
@@ -759,7 +870,7 @@ static int vertex_areas(gl_context *c)
         (vertex_has_units(c) && !vertex_set_all_units(c))) {
         return 0;
     }
-    vertex_draw_list(c, NULL, 0, mode);
+    vertex_draw_list(c, c->orders > 0 ? c->order_of : NULL, (uint32_t)c->orders, mode);
     return 1;
 }
 
@@ -811,7 +922,8 @@ void gl_flush_vertices(gl_context *c)
     if (mode < 0 ? !vertex_plain_lines(c, shows) : shows && !vertex_all_out(c) && !vertex_plain(c, mode)) {
         vertex_general(c);
     }
-    c->count = c->made_count = c->looks = c->open = 0;
+    c->count = c->made_count = c->looks = c->open = c->orders = 0;
+    c->last_at = -1;
 }
 
 OP(rect)
