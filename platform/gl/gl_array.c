@@ -1,4 +1,6 @@
 /* gl_array.c: vertex arrays and buffer objects. Elements outside a buffer are zeros. */
+#include <stddef.h>
+
 #include "gl_context.h"
 
 void gl_set_array(gl_context *c)
@@ -238,6 +240,209 @@ static uint32_t array_index(GLenum type, const uint8_t *p, size_t i)
     return u;
 }
 
+/* --- elements of many --------------------------------------------------------------------------------------------- */
+
+/* An array that is on, and the floats of a vertex that it sets. */
+typedef struct array_source {
+    const uint8_t *p; /* NULL: element values are unset */
+    uint64_t end;     /* bytes of a buffer from p on; arrays of the program's memory have no end */
+    size_t stride;
+    int32_t size, bytes, values, norm; /* values of an element; bytes of a value; floats set */
+    GLenum type;
+    size_t to; /* in gl_vertex */
+} array_source;
+
+typedef struct array_sources {
+    array_source of[ARRAYS];
+    int32_t count;
+} array_sources;
+
+static void array_set_source(array_sources *s, const gl_array *a, size_t to, int32_t values, int norm)
+{
+    array_source *d = &s->of[s->count];
+    if (!a->on) {
+        return;
+    }
+    ++s->count;
+    d->size = a->size;
+    d->bytes = array_bytes(a->type);
+    d->stride = a->stride != 0 ? (size_t)a->stride : (size_t)(d->bytes * d->size);
+    d->type = a->type;
+    d->values = values;
+    d->norm = norm;
+    d->to = to;
+    d->p = a->data;
+    d->end = UINT64_MAX;
+    if (a->buffer != NULL) {
+        const size_t offset = (size_t)(uintptr_t)a->data;
+        d->end = offset > a->buffer->bytes ? 0 : a->buffer->bytes - offset;
+        d->p = a->buffer->data + (d->end != 0 ? offset : 0);
+    }
+}
+
+/* The arrays that are on; that of positions is the last one. */
+static void array_set_sources(array_sources *s, const gl_context *c)
+{
+    const gl_array *a = c->client.array;
+    s->count = 0;
+    array_set_source(s, &a[ARRAY_NORMAL], offsetof(gl_vertex, normal), 3, 1);
+    array_set_source(s, &a[ARRAY_COLOUR], offsetof(gl_vertex, colour), 4, 1);
+    array_set_source(s, &a[ARRAY_SECOND], offsetof(gl_vertex, second), 3, 1);
+    array_set_source(s, &a[ARRAY_FOG], offsetof(gl_vertex, fog), 1, 0);
+    array_set_source(s, &a[ARRAY_EDGE], offsetof(gl_vertex, edge), 1, 0);
+    for (size_t u = 0; u < GL_UNITS; ++u) {
+        array_set_source(s, &a[ARRAY_TEX + u], offsetof(gl_vertex, tex) + 4 * u * sizeof(float), 4, 0);
+    }
+    array_set_source(s, &a[ARRAY_VERTEX], offsetof(gl_vertex, at), 4, 0);
+}
+
+/* Reads element i; elements outside a buffer are zeros. */
+static inline void array_read(const array_source *s, uint32_t i, float *to)
+{
+    const uint64_t at = (uint64_t)i * s->stride;
+    const int is_out = at > s->end || (uint64_t)(s->bytes * s->size) > s->end - at;
+    float v[4] = {0.0f, 0.0f, 0.0f, 1.0f};
+    const uint8_t *p = is_out || s->p == NULL ? NULL : s->p + at;
+    if (is_out) {
+        memset(v, 0, (size_t)s->size * sizeof *v);
+    } else if (p == NULL) {
+        /* unset */
+    } else if (s->type == GL_FLOAT && s->size == 3) {
+        memcpy(v, p, 3 * sizeof *v);
+    } else if (s->type == GL_FLOAT && s->size == 2) {
+        memcpy(v, p, 2 * sizeof *v);
+    } else {
+        for (int k = 0; k < s->size; ++k) {
+            v[k] = array_value(p + k * s->bytes, s->type, s->norm);
+        }
+    }
+    if (s->values == 4) {
+        memcpy(to, v, 4 * sizeof *v);
+    } else {
+        memcpy(to, v, (size_t)s->values * sizeof *v);
+    }
+}
+
+/* Sets the values of element i. */
+static inline void array_read_all(gl_vertex *to, const array_sources *s, uint32_t i)
+{
+    for (int k = 0; k < s->count; ++k) {
+        array_read(&s->of[k], i, (float *)(void *)((uint8_t *)to + s->of[k].to));
+    }
+}
+
+static inline uint32_t array_name(uint32_t first, GLenum type, const uint8_t *p, size_t n)
+{
+    return p != NULL ? array_index(type, p, n) : first + (uint32_t)n;
+}
+
+/* The texture coordinates of all elements need no shader: with one, all triangles of a batch would take it. */
+static int array_is_plain(const gl_context *c, const array_sources *s, GLsizei count, GLenum type, const uint8_t *p)
+{
+    const gl_matrices *m = &c->texture[0];
+    const array_source *from = NULL;
+    gl_vertex v = c->s.current.v;
+    if (c->s.texture.unit[0].on == 0) {
+        return 1;
+    }
+    for (int k = 0; k < s->count; ++k) {
+        from = s->of[k].to == offsetof(gl_vertex, tex) ? &s->of[k] : from;
+    }
+    for (GLsizei i = 0; i < (from != NULL ? count : 1); ++i) {
+        float t[4];
+        if (from != NULL) {
+            array_read(from, array_index(type, p, (size_t)i), v.tex[0]);
+        }
+        gl_matrix_point(t, m->m[m->top], v.tex[0]);
+        if (t[3] != 1.0f) {
+            return 0;
+        }
+    }
+    return c->s.texture.unit[0].gen == 0;
+}
+
+/* The vertex of an element of this call, whose vertices begin at `from`. */
+static inline uint32_t array_slot(gl_context *c, const array_sources *s, int32_t from, uint32_t name)
+{
+    int32_t *slot = &c->slot_of[name & (GL_SLOTS - 1)];
+    if (*slot >= from && *slot < c->count && c->name_of[*slot] == name) {
+        return (uint32_t)*slot;
+    }
+    const int32_t at = c->count++;
+    gl_vertex *look = &c->look[c->looks];
+    *look = c->s.current.v;
+    array_read_all(look, s, name);
+    c->look_from[c->looks++] = at;
+    memcpy(c->at_of[at], look->at, sizeof look->at);
+    c->name_of[at] = name;
+    *slot = at;
+    return (uint32_t)at;
+}
+
+/* The places of primitive n in the indices of triangles, strips, fans, quads and quad strips. */
+static inline void array_places(uint32_t out[4], GLenum mode, uint32_t n)
+{
+    const uint32_t odd = n & 1u;
+    switch (mode) {
+    case GL_TRIANGLES: out[0] = 3 * n, out[1] = 3 * n + 1, out[2] = 3 * n + 2; break;
+    case GL_TRIANGLE_STRIP: out[0] = n + odd, out[1] = n + 1 - odd, out[2] = n + 2; break;
+    case GL_TRIANGLE_FAN: out[0] = 0, out[1] = n + 1, out[2] = n + 2; break;
+    case GL_QUADS: out[0] = 4 * n, out[1] = 4 * n + 1, out[2] = 4 * n + 2, out[3] = 4 * n + 3; break;
+    default: out[0] = 2 * n, out[1] = 2 * n + 1, out[2] = 2 * n + 3, out[3] = 2 * n + 2; break;
+    }
+}
+
+/* Filled primitives: vertices that several share are transformed and lit once. */
+static void array_draw_shared(gl_context *c, const array_sources *s, GLenum mode, uint32_t count, GLenum type,
+                              const uint8_t *p)
+{
+    const uint32_t each = mode == GL_QUADS || mode == GL_QUAD_STRIP ? 4 : 3;
+    const uint32_t sides = count < 2 ? 0 : count - 2;
+    const uint32_t past = mode == GL_TRIANGLES    ? count / 3
+                          : mode == GL_QUADS      ? count / 4
+                          : mode == GL_QUAD_STRIP ? sides / 2
+                                                  : sides;
+    if (!gl_order_begin(c, mode)) {
+        return;
+    }
+    int32_t from = c->count;
+    for (uint32_t n = 0; n < past; ++n) {
+        uint32_t place[4];
+        if (c->count + 4 > GL_BATCH || c->orders + 4 > GL_ORDERS) {
+            gl_flush_vertices(c);
+            from = 0;
+        }
+        array_places(place, mode, n);
+        for (uint32_t k = 0; k < each; ++k) {
+            place[k] = array_slot(c, s, from, array_index(type, p, place[k]));
+        }
+        memcpy(&c->order_of[c->orders], place, each * sizeof place[0]);
+        c->orders += (int32_t)each;
+        c->last_at = (int32_t)place[mode == GL_QUAD_STRIP ? 2 : each - 1];
+    }
+}
+
+/* Draws elements of arrays. p: NULL: first, first + 1, ... */
+static void array_run(gl_context *c, const array_sources *s, GLenum mode, uint32_t first, GLsizei count, GLenum type,
+                      const uint8_t *p)
+{
+    const gl_word begin[2] = {{.u = mode}, {.u = 1}}, end = {.u = 1};
+    if (p != NULL && !c->is_inside && gl_can_order(c, mode) && array_is_plain(c, s, count, type, p)) {
+        array_draw_shared(c, s, mode, (uint32_t)count, type, p);
+        return;
+    }
+    gl_op_begin(c, begin);
+    for (GLsizei i = 0; i < count && c->is_inside; ++i) {
+        gl_vertex v = c->s.current.v;
+        array_read_all(&v, s, array_name(first, type, p, (size_t)i));
+        gl_vertex_of(c, v.at, &v);
+    }
+    if (c->is_inside) {
+        gl_op_end(c, &end);
+    }
+    c->open = 0;
+}
+
 /* p: NULL: first, first + 1, ... */
 static void array_draw(gl_context *c, GLenum mode, uint32_t first, GLsizei count, GLenum type, const uint8_t *p)
 {
@@ -249,9 +454,16 @@ static void array_draw(gl_context *c, GLenum mode, uint32_t first, GLsizei count
     }
     const gl_buffer *positions = c->client.array[ARRAY_VERTEX].buffer;
     c->reads_static = positions != NULL && positions->usage == GL_STATIC_DRAW;
+    if (c->list_mode == 0) {
+        array_sources s;
+        array_set_sources(&s, c);
+        array_run(c, &s, mode, first, count, type, p);
+        c->reads_static = 0;
+        return;
+    }
     gl_do(c, OP_begin, begin, 2);
     for (GLsizei i = 0; i < count; ++i) {
-        array_element(c, p != NULL ? array_index(type, p, (size_t)i) : first + (uint32_t)i);
+        array_element(c, array_name(first, type, p, (size_t)i));
     }
     if (c->is_inside || c->list_mode == GL_COMPILE) {
         gl_do(c, OP_end, &end, 1);

@@ -416,8 +416,11 @@ GLuint gl_new_names(gl_context *c, gl_table *t, int32_t count); /* the first of 
 void gl_flush_vertices(gl_context *c); /* draws the batch */
 void gl_make_vertices(gl_context *c);  /* transforms and lights the batch, before a state changes */
 void gl_vertex_at(gl_context *c, const float at[4]);
+void gl_vertex_of(gl_context *c, const float at[4], const gl_vertex *look); /* with attributes of its own */
 void gl_vertices_at(gl_context *c, const gl_word *w, int32_t count, int32_t words); /* 3 (w is 1) or 4 words each */
 int gl_can_order(const gl_context *c, GLenum primitive); /* 1: the batch may be in order_of */
+/* Vertices are appended, and order_of is written, by the caller, which draws when either is full. 0: an error. */
+int gl_order_begin(gl_context *c, GLenum primitive);
 void gl_light_last(gl_context *c, int32_t at); /* GL_COLOR_MATERIAL takes the colour of vertex `at` */
 int32_t gl_look_of(const gl_context *c, int32_t i); /* the look of vertex i */
 void gl_update_matrices(gl_context *c);

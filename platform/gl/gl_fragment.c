@@ -424,11 +424,11 @@ static int fragment_is_out(const gl_context *c, int is_line, int is_area, int32_
 
 /* --- pixels by lanes ---------------------------------------------------------------------------------------------- */
 
-/* Returns 1 if gl_wide.h has the kind of a unit: 2D textures of any filter and wrap in the classic environments. */
-static int fragment_unit_is_wide(const gl_texture *t, const gl_unit *u)
+/* Returns 1 if gl_wide.h has the kind of a unit: 2D textures of any filter and wrap. */
+static int fragment_unit_is_wide(const gl_texture *t)
 {
     const gl_image *m = &t->image[0][t->base_level];
-    int plain = t->target == TARGET_2D && m->border == 0 && m->base != GL_DEPTH_COMPONENT && u->mode != GL_COMBINE;
+    int plain = t->target == TARGET_2D && m->border == 0 && m->base != GL_DEPTH_COMPONENT;
     for (int i = 0; i < 4; ++i) {
         plain &= t->swizzle[i] == GL_RED + (GLenum)i;
     }
@@ -439,7 +439,7 @@ static int fragment_is_wide(const gl_context *c)
 {
     int wide = c->wide != NULL;
     for (int i = 0; i < GL_UNITS && wide; ++i) {
-        wide = !gl_unit_is_on(c, i) || fragment_unit_is_wide(gl_unit_texture(c, i), &c->s.texture.unit[i]);
+        wide = !gl_unit_is_on(c, i) || fragment_unit_is_wide(gl_unit_texture(c, i));
     }
     return wide;
 }
@@ -460,6 +460,7 @@ static void fragment_set_unit(gl_wide_unit *out, const gl_context *c, const gl_m
     const gl_texture *t = gl_unit_texture(c, unit);
     const float *p = m[0]->tex[unit], *q = m[1]->tex[unit], *r = m[2]->tex[unit];
     out->texture = t;
+    out->number = unit;
     out->unit = &c->s.texture.unit[unit];
     out->base = fragment_base(t);
     out->s = fragment_value_of(p[0], q[0], r[0]);
@@ -484,8 +485,10 @@ static void fragment_set_job(gl_wide_job *out, const gl_context *c, const gl_mad
     }
     out->fog = fragment_value_of(m[0]->fog, m[1]->fog, m[2]->fog);
     out->units = 0;
+    out->combines = 0;
     for (int i = 0; i < GL_UNITS; ++i) {
         if (gl_unit_is_on(c, i)) {
+            out->combines |= c->s.texture.unit[i].mode == GL_COMBINE;
             fragment_set_unit(&out->unit[out->units++], c, m, i);
         }
     }

@@ -80,6 +80,25 @@ OP(begin)
     c->begin_at = c->count;
 }
 
+int gl_order_begin(gl_context *c, GLenum p)
+{
+    const GLenum kind = p == GL_QUADS || p == GL_QUAD_STRIP ? GL_QUADS : GL_TRIANGLES;
+    if (c->count > 0 && (c->orders == 0 || c->ordered != kind || c->primitive != p || c->is_static)) {
+        gl_flush_vertices(c);
+    }
+    c->is_static = 0;
+    if (!gl_surface_ready(c, c->framebuffer)) {
+        return 0;
+    }
+    c->primitive = p;
+    c->ordered = kind;
+    c->is_continued = 0;
+    c->stipple_at = 0;
+    c->begin_at = c->count;
+    c->open = 0;
+    return 1;
+}
+
 /* Puts a vertex with attributes of its own at the end of the batch. */
 static void vertex_append(gl_context *c, const float at[4], const gl_vertex *look)
 {
@@ -233,6 +252,17 @@ void gl_vertex_at(gl_context *c, const float at[4])
     } else {
         memcpy(c->at_of[c->count++], at, 4 * sizeof *at);
     }
+    if (c->count == GL_BATCH) {
+        vertex_turn_over(c);
+    }
+}
+
+void gl_vertex_of(gl_context *c, const float at[4], const gl_vertex *look)
+{
+    if (!c->is_inside || c->skips) {
+        return;
+    }
+    vertex_append(c, at, look);
     if (c->count == GL_BATCH) {
         vertex_turn_over(c);
     }

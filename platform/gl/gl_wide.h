@@ -19,12 +19,14 @@ typedef struct gl_wide_unit {
     float bias;         /* added to the level */
     int32_t has_levels; /* 1: minified pixels differ from magnified ones: by_x and by_y are set */
     int32_t divides;    /* 1: q is not 1 everywhere */
+    int32_t number;     /* of the unit */
 } gl_wide_unit;
 
 typedef struct gl_wide_job {
     const gl_context *context;
     gl_wide_unit unit[GL_UNITS]; /* those that are on, in order */
     int32_t units;
+    int32_t combines; /* 1: a unit has GL_COMBINE, so all texels are sampled first */
     int32_t adds, fogs; /* 1: a secondary colour that is not 0; fog */
     gl_wide_value colour[4], second[3], fog;
     float share[2][64], by_x[2][64], by_y[2][64]; /* as in lmb_draw_fragment_at */

@@ -291,15 +291,17 @@ LANE_NOINLINE void wide_sample(lane out[4], const gl_wide_job *j, const gl_wide_
 
 /* --- colours ------------------------------------------------------------------------------------------------------ */
 
-/* Applies a unit: fragment_classic. */
-LANE_INLINE void wide_apply(lane c[4], const gl_wide_job *j, const gl_wide_unit *u, int k, uint32_t bits)
+LANE_INLINE int wide_has_alpha(GLenum base)
+{
+    return base == GL_ALPHA || base == GL_LUMINANCE_ALPHA || base == GL_RGBA || base == GL_INTENSITY;
+}
+
+/* Applies a unit with texels t: fragment_classic. */
+LANE_INLINE void wide_apply(lane c[4], const gl_wide_unit *u, const lane t[4])
 {
     const GLenum base = u->base, mode = u->unit->mode;
-    const int colours = base != GL_ALPHA,
-              alphas = base == GL_ALPHA || base == GL_LUMINANCE_ALPHA || base == GL_RGBA || base == GL_INTENSITY;
+    const int colours = base != GL_ALPHA, alphas = wide_has_alpha(base);
     const lane one = lane_splat(1.0f);
-    lane t[4];
-    wide_sample(t, j, u, k, bits, alphas ? 4 : 3);
     for (int i = 0; i < 3 && colours; ++i) {
         switch (mode) {
         case GL_REPLACE: c[i] = t[i]; break;
@@ -328,6 +330,87 @@ LANE_INLINE void wide_apply(lane c[4], const gl_wide_job *j, const gl_wide_unit 
         c[3] = lane_min(lane_add(c[3], t[3]), one);
     } else {
         c[3] = lane_mul(c[3], t[3]);
+    }
+}
+
+/* Channel i of argument n of a unit with GL_COMBINE, for colours or for alpha. */
+LANE_INLINE lane wide_argument(const lane c[4], const gl_wide_unit *u, const lane primary[4],
+                               const lane texels[GL_UNITS][4], int half, int n, int i)
+{
+    const GLenum from = u->unit->source[half][n], how = u->unit->operand[half][n];
+    const int at = how == GL_SRC_ALPHA || how == GL_ONE_MINUS_SRC_ALPHA ? 3 : i;
+    const lane v = from == GL_TEXTURE                                            ? texels[u->number][at]
+                   : from >= GL_TEXTURE0 && from < GL_TEXTURE0 + GL_UNITS ? texels[from - GL_TEXTURE0][at]
+                   : from == GL_CONSTANT                                       ? lane_splat(u->unit->colour[at])
+                   : from == GL_PRIMARY_COLOR                                  ? primary[at]
+                                                                               : c[at];
+    return how == GL_ONE_MINUS_SRC_COLOR || how == GL_ONE_MINUS_SRC_ALPHA ? lane_sub(lane_splat(1.0f), v) : v;
+}
+
+/* fragment_combine */
+LANE_NOINLINE void wide_combine(lane c[4], const gl_wide_unit *u, const lane primary[4],
+                                const lane texels[GL_UNITS][4])
+{
+    const gl_unit *unit = u->unit;
+    const lane one = lane_splat(1.0f), half_one = lane_splat(0.5f);
+    lane out[4], dot = lane_splat(0.0f);
+    for (int i = 0; i < 3 && (unit->combine[0] == GL_DOT3_RGB || unit->combine[0] == GL_DOT3_RGBA); ++i) {
+        const lane a = wide_argument(c, u, primary, texels, 0, 0, i), b = wide_argument(c, u, primary, texels, 0, 1, i);
+        const lane product = lane_mul(lane_sub(a, half_one), lane_sub(b, half_one));
+        dot = i == 0 ? product : lane_add(dot, product);
+    }
+    dot = lane_mul(lane_splat(4.0f), dot);
+    for (int i = 0; i < 4; ++i) {
+        const int half = i == 3;
+        const lane a = wide_argument(c, u, primary, texels, half, 0, i);
+        lane v = a, b = a;
+        if (unit->combine[half] != GL_REPLACE) {
+            b = wide_argument(c, u, primary, texels, half, 1, i);
+        }
+        switch (unit->combine[half]) {
+        case GL_REPLACE: break;
+        case GL_ADD: v = lane_add(a, b); break;
+        case GL_ADD_SIGNED: v = lane_sub(lane_add(a, b), half_one); break;
+        case GL_INTERPOLATE: {
+            const lane d = wide_argument(c, u, primary, texels, half, 2, i);
+            v = lane_add(lane_mul(a, d), lane_mul(b, lane_sub(one, d)));
+            break;
+        }
+        case GL_SUBTRACT: v = lane_sub(a, b); break;
+        case GL_DOT3_RGB: case GL_DOT3_RGBA: v = dot; break;
+        default: v = lane_mul(a, b); break;
+        }
+        out[i] = unit->combine[0] == GL_DOT3_RGBA && half ? wide_range(lane_mul(dot, lane_splat(unit->scale[0])))
+                                                           : wide_range(lane_mul(v, lane_splat(unit->scale[half])));
+    }
+    for (int i = 0; i < 4; ++i) {
+        c[i] = out[i];
+    }
+}
+
+/* fragment_texture if a unit combines: it may read the texels of any. */
+LANE_NOINLINE void wide_combine_all(lane c[4], const gl_wide_job *j, int k, uint32_t bits)
+{
+    lane texels[GL_UNITS][4], primary[4];
+    for (int n = 0; n < 4; ++n) {
+        primary[n] = c[n];
+        for (int i = 0; i < GL_UNITS; ++i) {
+            texels[i][n] = lane_splat(n == 3 ? 1.0f : 0.0f);
+        }
+    }
+    for (int i = 0; i < j->units; ++i) {
+        lane *t = texels[j->unit[i].number];
+        wide_sample(t, j, &j->unit[i], k, bits, 4);
+        for (int n = 0; n < 3 && j->unit[i].base == GL_ALPHA; ++n) {
+            t[n] = lane_splat(0.0f);
+        }
+    }
+    for (int i = 0; i < j->units; ++i) {
+        if (j->unit[i].unit->mode == GL_COMBINE) {
+            wide_combine(c, &j->unit[i], primary, (const lane(*)[4])texels);
+        } else {
+            wide_apply(c, &j->unit[i], texels[j->unit[i].number]);
+        }
     }
 }
 
@@ -373,8 +456,13 @@ LANE_INLINE lanei wide_pixels(const gl_wide_job *j, int k, uint32_t bits)
     for (int n = 0; n < 4; ++n) {
         c[n] = wide_mix(&j->colour[n], share1, share2);
     }
-    for (int i = 0; i < j->units; ++i) {
-        wide_apply(c, j, &j->unit[i], k, bits);
+    if (j->combines) {
+        wide_combine_all(c, j, k, bits);
+    }
+    for (int i = 0; i < j->units && !j->combines; ++i) {
+        lane t[4];
+        wide_sample(t, j, &j->unit[i], k, bits, wide_has_alpha(j->unit[i].base) ? 4 : 3);
+        wide_apply(c, &j->unit[i], t);
     }
     for (int n = 0; n < 3; ++n) {
         if (j->adds) {
