@@ -81,12 +81,13 @@ static int rows_draw_areas(const lmb_draw_pass *pass)
            (!pass->tests || (pass->tests_rows && pass->target->depth.layout == LMB_LINEAR));
 }
 
-/* 1: a kernel draws small triangles in batches, without texture and fog. It reads and writes rows of eight pixels
+/* 1: a kernel draws small triangles in batches, without fog. It reads and writes rows of eight pixels
  * inside the pass's tiles. */
 static int rows_draw_small(const lmb_draw_pass *pass)
 {
     const lmb_draw_target *t = pass->target;
-    return pass->draws != 0 && pass->state->kernels->draw_small != NULL && pass->state->stage[0].texture == NULL &&
+    return pass->draws != 0 && pass->state->kernels->draw_small != NULL &&
+           (pass->state->stage[0].texture == NULL || pass->vertices->uvs[0] != NULL) &&
            pass->state->fog == LMB_DRAW_FOG_NONE &&
            mini(pass->x1 | 7, t->x0 + t->colour.width - 1) - maxi(pass->x0 & ~7, t->x0) >= 7 &&
            pass->vertices->count < (uint32_t)1 << 28; /* indices of floats fit 32 bits */

@@ -85,6 +85,19 @@ LANE_PART void small_place(small_corner *out, const lmb_draw_small *b, uint32_t 
     out->y = small_to_24_8(lane_sub(half, lane_mul(lane_mul(y, out->inverse), lane_splat(b->snap_y))));
 }
 
+/* Triangles with texture coordinates that draw_quick.c takes. */
+LANE_PART lane_mask small_sane(const lmb_draw_small *b, uint32_t first)
+{
+    const lane limit = lane_splat(SMALL_PLACE);
+    lane_mask sane = mask_of_bits(~0u);
+    for (int k = 0; k < 3; ++k) {
+        const lanei from = lanei_mul(lanei_load(b->at[k] + first), lanei_splat(2));
+        sane = mask_and(sane, mask_and(lane_lt(lane_abs(lane_gather_f32(b->uvs, from)), limit),
+                                       lane_lt(lane_abs(lane_gather_f32(b->uvs + 1, from)), limit)));
+    }
+    return sane;
+}
+
 LANE_INLINE laned small_difference(lanei a, lanei b) { return laned_sub(laned_from_int(a), laned_from_int(b)); }
 
 /* --- setup -------------------------------------------------------------------------------------------------------- */
@@ -241,7 +254,10 @@ LANE_NOINLINE uint32_t KERNEL(small_set)(small_setup *s, const lmb_draw_small *b
                 x1 = lanei_min(lanei_shift(lanei_add(x_max, to_x), 8), lanei_splat(b->x1)),
                 y0 = lanei_max(lanei_shift(lanei_add(lanei_add(y_min, to_y), up), 8), lanei_splat(b->y0)),
                 y1 = lanei_min(lanei_shift(lanei_add(y_max, to_y), 8), lanei_splat(b->y1));
-    const lane_mask in = mask_and(c[0].in, mask_and(c[1].in, c[2].in));
+    lane_mask in = mask_and(c[0].in, mask_and(c[1].in, c[2].in));
+    if (b->uvs != NULL) {
+        in = mask_and(in, small_sane(b, first));
+    }
     const lane_mask empty = mask_or(lanei_lt(x1, x0), lanei_lt(y1, y0));
     const lanei side = lanei_splat(SMALL_24_8);
     const lane_mask fits = mask_and(lanei_lt(lanei_sub(x_max, x_min), side), lanei_lt(lanei_sub(y_max, y_min), side));
@@ -283,7 +299,7 @@ LANE_NOINLINE uint32_t KERNEL(small_set)(small_setup *s, const lmb_draw_small *b
     if (b->depth != NULL) {
         small_set_depth(s, b, c, by_area);
     }
-    if ((s->varies & small) != 0) {
+    if ((s->varies & small) != 0 || b->uvs != NULL) {
         small_set_shares(s, b, c, by_area);
     }
     return small;
@@ -329,6 +345,35 @@ typedef struct small_colours {
     float at[4], more1[4], more2[4];
 } small_colours;
 
+/* The same and texture coordinates of triangle t. */
+LANE_INLINE void small_set_patch(lmb_draw_patch *out, const lmb_draw_small *b, const small_setup *s, int t)
+{
+    const int back = (int)(s->back >> t & 1u);
+    const uint32_t n = s->first + (uint32_t)t;
+    const ptrdiff_t v0 = b->at[0][n], v1 = b->at[2 - back][n], v2 = b->at[1 + back][n];
+    out->state = b->state;
+    out->varies = (int)(s->varies >> t & 1u);
+    for (int i = 0; i < 4; ++i) {
+        out->at[i] = (float)(out->varies ? b->colours[4 * v0 + i] : s->codes[t] >> 8 * i & 0xffu);
+        out->more1[i] = out->varies ? (float)b->colours[4 * v1 + i] - out->at[i] : 0.0f;
+        out->more2[i] = out->varies ? (float)b->colours[4 * v2 + i] - out->at[i] : 0.0f;
+    }
+    for (int i = 0; i < 2; ++i) {
+        out->at[4 + i] = b->uvs[2 * v0 + i];
+        out->more1[4 + i] = b->uvs[2 * v1 + i] - out->at[4 + i];
+        out->more2[4 + i] = b->uvs[2 * v2 + i] - out->at[4 + i];
+    }
+}
+
+LANE_INLINE draw_share small_share(const small_run n[3], const small_where *w, int is_even)
+{
+    draw_share share = {small_value(&n[0], w), small_value(&n[1], w)};
+    if (!is_even) {
+        draw_even_out(&share, small_value(&n[2], w));
+    }
+    return draw_hold_share(share);
+}
+
 LANE_INLINE void small_set_smooth(small_colours *out, const lmb_draw_small *b, const small_setup *s, int t)
 {
     const int back = (int)(s->back >> t & 1u);
@@ -361,8 +406,9 @@ LANE_INLINE lanei small_smooth_codes(const small_colours *v, const small_run n[3
     return draw_join(&made);
 }
 
-/* Draws triangle t. */
-LANE_INLINE void small_draw(const lmb_draw_small *b, const small_setup *s, int t, int meets, int tests, int varies)
+/* Draws triangle t. varies: the colours do, or there is a texture. */
+LANE_INLINE void small_draw(const lmb_draw_small *b, const small_setup *s, int t, int meets, int tests, int varies,
+                            int textured)
 {
     const lmb_draw_state *state = b->state;
     const int writes = (state->flags & LMB_DRAW_DEPTH_WRITE) != 0;
@@ -374,7 +420,14 @@ LANE_INLINE void small_draw(const lmb_draw_small *b, const small_setup *s, int t
     lanei colour = lanei_splat((int32_t)packed);
     small_colours smooth;
     colour = b->swaps ? draw_swap(colour) : colour;
-    if (varies) {
+    lmb_draw_patch patch;
+    draw_brush brush;
+    draw_axes axes;
+    if (textured) {
+        small_set_patch(&patch, b, s, t);
+        brush = draw_brush_of(&patch, meets);
+        axes = draw_axes_of(&brush, &patch);
+    } else if (varies) {
         small_set_smooth(&smooth, b, s, t);
     }
     for (int k = 0; k < LMB_TILE; k += LANES) {
@@ -426,6 +479,14 @@ LANE_INLINE void small_draw(const lmb_draw_small *b, const small_setup *s, int t
             }
             uint8_t *to = b->colour + down * b->colour_stride + 4 * right;
             const lanei was = draw_load(to, b->colour_stride);
+            if (textured) {
+                const draw_share share = small_share(n, &w, s->is_even);
+                const draw_found found = draw_find(&brush, &axes, &patch, &share);
+                const lanei texel = draw_painted(&brush, &found, bits);
+                draw_save(to, b->colour_stride,
+                          lanei_pick(mask_of_bits(bits), draw_mixed(&brush, texel, b->swaps, was), was));
+                continue;
+            }
             if (varies) {
                 colour = small_smooth_codes(&smooth, n, &w, s->is_even);
                 colour = b->swaps ? draw_swap(colour) : colour;
@@ -442,29 +503,40 @@ LANE_INLINE void small_draw(const lmb_draw_small *b, const small_setup *s, int t
  * compiler gives inlined copies separate places on the stack. */
 LANE_NOINLINE void KERNEL(small_tested)(const lmb_draw_small *b, const small_setup *s, int t, int meets)
 {
-    small_draw(b, s, t, meets, 1, 0);
+    small_draw(b, s, t, meets, 1, 0, 0);
 }
 
 LANE_NOINLINE void KERNEL(small_tested_smooth)(const lmb_draw_small *b, const small_setup *s, int t, int meets)
 {
-    small_draw(b, s, t, meets, 1, 1);
+    small_draw(b, s, t, meets, 1, 1, 0);
 }
 
 LANE_NOINLINE void KERNEL(small_untested)(const lmb_draw_small *b, const small_setup *s, int t, int meets)
 {
-    small_draw(b, s, t, meets, 0, 0);
+    small_draw(b, s, t, meets, 0, 0, 0);
 }
 
 LANE_NOINLINE void KERNEL(small_untested_smooth)(const lmb_draw_small *b, const small_setup *s, int t, int meets)
 {
-    small_draw(b, s, t, meets, 0, 1);
+    small_draw(b, s, t, meets, 0, 1, 0);
+}
+
+LANE_NOINLINE void KERNEL(small_textured)(const lmb_draw_small *b, const small_setup *s, int t, int meets)
+{
+    if (b->depth != NULL) {
+        small_draw(b, s, t, meets, 1, 1, 1);
+    } else {
+        small_draw(b, s, t, meets, 0, 1, 1);
+    }
 }
 
 LANE_INLINE void small_draw_all(const lmb_draw_small *b, const small_setup *s, uint32_t asked, int meets)
 {
     for (; asked != 0; asked &= asked - 1) {
         const int t = lowest_bit(asked), varies = (s->varies >> t & 1u) != 0;
-        if (b->depth != NULL && varies) {
+        if (b->uvs != NULL) {
+            KERNEL(small_textured)(b, s, t, meets);
+        } else if (b->depth != NULL && varies) {
             KERNEL(small_tested_smooth)(b, s, t, meets);
         } else if (b->depth != NULL) {
             KERNEL(small_tested)(b, s, t, meets);

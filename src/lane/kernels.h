@@ -195,13 +195,15 @@ typedef struct lmb_draw_area {
     uint8_t *colour;                /* pixel 0 */
 } lmb_draw_area;
 
-/* Small triangles in order, without texture and fog, opaque or blended by alpha. Pixels count in the frame. */
+/* Small triangles in order, with at most one texture, without fog, opaque or blended by alpha. Pixels count in the
+ * frame. */
 enum { LMB_DRAW_SMALLS = 8 /* of a batch */ };
 typedef struct lmb_draw_small {
     const lmb_draw_state *state;
     const float *positions;
     int32_t floats;         /* of a position: 3 or 4 */
     const uint8_t *colours; /* R G B A of a vertex; NULL: the state's */
+    const float *uvs;       /* of the first stage's texture; NULL: there is none */
     int32_t middle_x, middle_y; /* viewport's centre, 24.8 */
     float snap_x, snap_y, guard_x, guard_y;
     int32_t x0, y0, x1, y1; /* pixels that may be drawn */
