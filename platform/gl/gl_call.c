@@ -65,18 +65,36 @@ static void call_colour(float r, float g, float b, float a)
     DO(colour, F(r), F(g), F(b), F(a));
 }
 
-static void call_normal(float x, float y, float z) { DO(normal, F(x), F(y), F(z)); }
+static void call_normal(float x, float y, float z)
+{
+    gl_context *c = gl_now;
+    if (c != NULL && c->list_mode == 0) {
+        float *v = c->s.current.v.normal;
+        v[0] = x;
+        v[1] = y;
+        v[2] = z;
+        c->open = 0;
+        return;
+    }
+    DO(normal, F(x), F(y), F(z));
+}
 static void call_tex(GLenum unit, float s, float t, float r, float q)
 {
     DO(tex_coord, U(unit), F(s), F(t), F(r), F(q));
 }
 static void call_tex_2(float s, float t)
 {
-    if (gl_now != NULL && gl_now->list_mode == 0) {
-        call_tex(GL_TEXTURE0, s, t, 0.0f, 1.0f);
-    } else {
-        DO(tex_coord_2, F(s), F(t));
+    gl_context *c = gl_now;
+    if (c != NULL && c->list_mode == 0) {
+        float *v = c->s.current.v.tex[0];
+        v[0] = s;
+        v[1] = t;
+        v[2] = 0.0f;
+        v[3] = 1.0f;
+        c->open = 0;
+        return;
     }
+    DO(tex_coord_2, F(s), F(t));
 }
 static void call_raster(float x, float y, float z, float w) { DO(raster_pos, F(x), F(y), F(z), F(w)); }
 static void call_window(float x, float y, float z) { DO(window_pos, F(x), F(y), F(z)); }

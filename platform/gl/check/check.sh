@@ -39,6 +39,13 @@ full() { program full $here/full.c; }
 fours() { program fours $here/fours.c; }
 alike() { program alike $here/alike.c; }
 
+# Meshes by every primitive and every way to send them: the same pictures, and pinned hashes.
+meshes() {
+    program meshes $here/meshes.c
+    "$out/meshes" pin > "$out/meshes.hash"
+    if cmp -s "$out/meshes.hash" $here/meshes.txt; then good; else bad "meshes: $out/meshes.hash is not $here/meshes.txt"; fi
+}
+
 # Bounced light: the checks of bounced.c, and the same pictures by every back end.
 bounced() {
     program bounced $here/bounced.c
@@ -99,8 +106,8 @@ piglit() {
     if [ -z "$missing" ]; then good; else bad "piglit: $missing"; fi
 }
 
-clients=${GL_CLIENTS:-own hostile outside threads full fours alike bounced glu glfw pyopengl piglit}
-[ "$clients" = fast ] && clients="own hostile outside threads full fours alike bounced glu glfw pyopengl"
+clients=${GL_CLIENTS:-own hostile outside threads full fours alike meshes bounced glu glfw pyopengl piglit}
+[ "$clients" = fast ] && clients="own hostile outside threads full fours alike meshes bounced glu glfw pyopengl"
 for client in $clients; do
     $client
 done
