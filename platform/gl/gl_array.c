@@ -311,6 +311,10 @@ static inline void array_read(const array_source *s, uint32_t i, float *to)
         memcpy(v, p, 3 * sizeof *v);
     } else if (s->type == GL_FLOAT && s->size == 2) {
         memcpy(v, p, 2 * sizeof *v);
+    } else if (s->type == GL_UNSIGNED_BYTE && s->size == 4 && s->norm) {
+        for (int k = 0; k < 4; ++k) {
+            v[k] = (float)p[k] / 255.0f;
+        }
     } else {
         for (int k = 0; k < s->size; ++k) {
             v[k] = array_value(p + k * s->bytes, s->type, s->norm);

@@ -1,7 +1,7 @@
 /* meshes.c: random meshes by every primitive and every way to send them.
  *
  *   meshes [ROUNDS [FIRST]]        a round's picture is the same by all ways and by all back ends
- *   meshes pin                     prints the hashes of the first rounds, which are pinned
+ *   meshes pin                     prints the hashes of the usual rounds, which are pinned
  *   meshes hash [ROUNDS [FIRST]]   prints a line a round, by the back end of the environment, to compare two libraries
  */
 #define _POSIX_C_SOURCE 200112L
@@ -12,7 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { WIDTH = 150, HEIGHT = 94, SIDE = 32, BATCHES = 3, RUNS = 40, VERTICES = 14000, PINNED = 24 };
+enum { WIDTH = 150, HEIGHT = 94, SIDE = 32, BATCHES = 3, RUNS = 40, VERTICES = 14000, SIMPLE = 10000 /* the first round of states that draw.h has kernels for */ };
+static int simple; /* 1: such a round */
 /* Ways: as the program would; every run on its own, by glVertex; compiled first; compiled and drawn. */
 enum { WAY_USUAL, WAY_ALONE, WAY_LIST, WAY_BOTH, WAYS };
 static unsigned char pixels[HEIGHT][WIDTH][4];
@@ -96,6 +97,34 @@ static void set_texture(int u)
     enable(GL_TEXTURE_GEN_S, 12);
     glEnable(GL_TEXTURE_2D);
     glActiveTexture(GL_TEXTURE0);
+}
+
+/* States of small triangles in batches. */
+static void set_simple(void)
+{
+    static unsigned char texels[SIDE * SIDE * 4];
+    const float at[4] = {2, 3, 4, (float)any(2)};
+    const GLint filter = any(2) ? GL_NEAREST : GL_LINEAR;
+    for (int i = 0; i < (int)sizeof texels; ++i) {
+        texels[i] = (unsigned char)any(256);
+    }
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, any(2) ? GL_REPEAT : GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, any(2) ? GL_REPEAT : GL_MIRRORED_REPEAT);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, SIDE, SIDE, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
+    enable(GL_TEXTURE_2D, 2);
+    glShadeModel(any(3) ? GL_SMOOTH : GL_FLAT);
+    enable(GL_DEPTH_TEST, 2);
+    enable(GL_BLEND, 4);
+    glBlendFunc(GL_SRC_ALPHA, any(2) ? GL_ONE : GL_ONE_MINUS_SRC_ALPHA);
+    enable(GL_CULL_FACE, 2);
+    if (any(4) == 0) {
+        glEnable(GL_LIGHTING);
+        glEnable(GL_LIGHT0);
+        enable(GL_COLOR_MATERIAL, 2);
+        glLightfv(GL_LIGHT0, GL_POSITION, at);
+    }
 }
 
 static void set_state(void)
@@ -280,8 +309,8 @@ static void draw_batch(int way)
                                     GL_POLYGON, GL_TRIANGLE_STRIP};
     const GLenum mode = modes[any(7)];
     const float step = any(2) ? 0.08f : any(2) ? 0.3f : 1.5f;
-    const int odd = any(8) == 0, how = (int)any(3), type = (int)any(3), has = (int)any(16),
-              coordinates = any(5) ? 2 : 4, is_long = any(10) == 0, runs = is_long ? 1 + (int)any(2) : 1 + (int)any(RUNS),
+    const int odd = any(8) == 0, how = (int)any(3), type = (int)any(3), has = (int)any(16) | (simple ? 5 : 0),
+              coordinates = any(5) ? 2 : 4, is_long = any(simple ? 5 : 10) == 0, runs = is_long ? 1 + (int)any(2) : 1 + (int)any(RUNS),
               paints = any(6) == 0 && how == 0, buffered = any(2) == 0;
     const int most = is_long ? VERTICES / 2 : 60, vertices = is_long ? 9000 : 1000;
     GLuint buffer[2];
@@ -343,6 +372,7 @@ static uint64_t draw_round(uint32_t round, int way)
     OSMesaContext context = OSMesaCreateContextExt(round % 3 == 0 ? OSMESA_BGRA : OSMESA_RGBA, 24, 8, 0, NULL);
     const int wide = round % 2 == 0 ? WIDTH : WIDTH - 5, high = round % 2 == 0 ? HEIGHT : HEIGHT - 1;
     uint64_t hash = 14695981039346656037u;
+    simple = round >= SIMPLE;
     memset(pixels, 0, sizeof pixels);
     if (context == NULL || !OSMesaMakeCurrent(context, pixels, GL_UNSIGNED_BYTE, wide, high)) {
         return 0;
@@ -359,7 +389,11 @@ static uint64_t draw_round(uint32_t round, int way)
         if (any(2)) {
             glRotatef(between(-9, 9), 0.1f, 0.3f, 1);
         }
-        set_state();
+        if (simple) {
+            set_simple();
+        } else {
+            set_state();
+        }
         draw_batch(way);
         glPopAttrib();
     }
@@ -379,30 +413,46 @@ static uint64_t draw_round(uint32_t round, int way)
     return good ? hash : 0;
 }
 
-int main(int argc, char **argv)
+/* Returns how many ways and back ends draw a round otherwise. */
+static int check_round(uint32_t r)
 {
     static const char *const kernels[6] = {"avx512", "avx2", "sse2", "neon", "simd128", "scalar"};
-    const int pins = argc > 1 && strcmp(argv[1], "pin") == 0, prints = pins || (argc > 1 && strcmp(argv[1], "hash") == 0);
-    const uint32_t rounds = argc > 1 + prints ? (uint32_t)atoi(argv[1 + prints]) : pins ? PINNED : 40,
-                   first = argc > 2 + prints ? (uint32_t)atoi(argv[2 + prints]) : 0;
     int wrong = 0;
-    for (uint32_t r = first; r < first + rounds; ++r) {
-        if (prints) {
-            for (int w = 0; w < (pins ? 1 : WAYS); ++w) {
-                const uint64_t hash = draw_round(r, w);
-                printf("%u %d %08lx%08lx\n", (unsigned)r, w, (unsigned long)(hash >> 32),
-                       (unsigned long)(hash & 0xffffffffu));
-            }
-            continue;
+    setenv("LAMBENT_GL_KERNELS", "none", 1);
+    const uint64_t want = draw_round(r, WAY_ALONE);
+    wrong += want == 0;
+    for (int k = 0; k < 6 + WAYS; ++k) { /* back ends as usual; all ways by the best one */
+        const int way = k < 6 ? WAY_USUAL : k - 6;
+        setenv("LAMBENT_GL_KERNELS", kernels[k < 6 ? k : 0], 1);
+        if (draw_round(r, way) != want) {
+            ++wrong;
+            fprintf(stderr, "meshes: round %u by %s, way %d\n", (unsigned)r, kernels[k < 6 ? k : 0], way);
         }
-        setenv("LAMBENT_GL_KERNELS", "none", 1);
-        const uint64_t want = draw_round(r, WAY_ALONE);
-        wrong += want == 0;
-        for (int k = 0; k < 6 + WAYS; ++k) { /* back ends as usual; all ways by the best one */
-            setenv("LAMBENT_GL_KERNELS", kernels[k < 6 ? k : 0], 1);
-            if (draw_round(r, k < 6 ? WAY_USUAL : k - 6) != want && wrong++ < 20) {
-                fprintf(stderr, "meshes: round %u by %s, way %d\n", (unsigned)r, kernels[k < 6 ? k : 0],
-                        k < 6 ? WAY_USUAL : k - 6);
+    }
+    return wrong;
+}
+
+static void print_round(uint32_t r, int ways)
+{
+    for (int w = 0; w < ways; ++w) {
+        const uint64_t hash = draw_round(r, w);
+        printf("%u %d %08lx%08lx\n", (unsigned)r, w, (unsigned long)(hash >> 32), (unsigned long)(hash & 0xffffffffu));
+    }
+}
+
+int main(int argc, char **argv)
+{
+    static const uint32_t usual[2][2] = {{0, 12}, {SIMPLE, 30}}; /* first, rounds */
+    const int pins = argc > 1 && strcmp(argv[1], "pin") == 0, prints = pins || (argc > 1 && strcmp(argv[1], "hash") == 0);
+    int wrong = 0;
+    for (int k = 0; k < (argc > 1 + prints ? 1 : 2); ++k) {
+        const uint32_t rounds = argc > 1 + prints ? (uint32_t)atoi(argv[1 + prints]) : usual[k][1],
+                       first = argc > 2 + prints ? (uint32_t)atoi(argv[2 + prints]) : usual[k][0];
+        for (uint32_t r = first; r < first + rounds; ++r) {
+            if (prints) {
+                print_round(r, pins ? 1 : WAYS);
+            } else {
+                wrong += check_round(r);
             }
         }
     }
