@@ -127,6 +127,11 @@ static gl_vertex vertex_copy(const gl_context *c, int32_t i)
     return v;
 }
 
+static int vertex_has_units(const gl_context *c)
+{
+    return gl_is_on(c, CAP_OFFSET_FILL) && c->s.polygon.units != 0.0f;
+}
+
 /* The looks of the batch's vertices `from` .. `to` - 1 need no shader for their texture coordinates. */
 static int vertex_looks_are_plain(const gl_context *c, int32_t from)
 {
@@ -151,7 +156,8 @@ static int vertex_looks_are_plain(const gl_context *c, int32_t from)
 int gl_can_order(const gl_context *c, GLenum p)
 {
     return c->s.polygon.front == GL_FILL && c->s.polygon.back == GL_FILL && c->render_mode == GL_RENDER &&
-           c->query == NULL && !gl_is_on(c, CAP_BOUNCED) && p >= GL_TRIANGLES && p <= GL_QUAD_STRIP &&
+           c->query == NULL && !vertex_has_units(c) && /* the batch decides how these are drawn */
+           !gl_is_on(c, CAP_BOUNCED) && p >= GL_TRIANGLES && p <= GL_QUAD_STRIP &&
            (p != GL_QUAD_STRIP || c->s.lighting.shade != GL_FLAT); /* another vertex has a quad's flat colour */
 }
 
@@ -485,11 +491,6 @@ static float vertex_depth_step(const gl_context *c, uint32_t at)
         step *= 0.5f;
     }
     return step;
-}
-
-static int vertex_has_units(const gl_context *c)
-{
-    return gl_is_on(c, CAP_OFFSET_FILL) && c->s.polygon.units != 0.0f;
 }
 
 static void vertex_set_units(gl_context *c, float step)
