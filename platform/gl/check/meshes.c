@@ -12,7 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { WIDTH = 150, HEIGHT = 94, SIDE = 32, BATCHES = 3, RUNS = 40, VERTICES = 14000, SIMPLE = 10000 /* the first round of states that draw.h has kernels for */ };
+enum { WIDTH = 150, HEIGHT = 94, SIDE = 32, BATCHES = 3, RUNS = 40, VERTICES = 14000 };
+enum { SIMPLE = 10000 /* the first round of states that draw.h has kernels for */ };
 static int simple; /* 1: such a round */
 /* Ways: as the program would; every run on its own, by glVertex; compiled first; compiled and drawn. */
 enum { WAY_USUAL, WAY_ALONE, WAY_LIST, WAY_BOTH, WAYS };
@@ -87,7 +88,8 @@ static void set_texture(int u)
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, (GLint)wraps[any(2) ? 0 : any(4)]);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, (GLint)wraps[any(2) ? 0 : any(4)]);
-    glTexImage2D(GL_TEXTURE_2D, 0, (GLint)formats[any(3) ? 0 : any(6)], SIDE, SIDE, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
+    glTexImage2D(GL_TEXTURE_2D, 0, (GLint)formats[any(3) ? 0 : any(6)], SIDE, SIDE, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                 texels);
     glTexEnvfv(GL_TEXTURE_ENV, GL_TEXTURE_ENV_COLOR, colour);
     if (any(3) == 0) {
         set_combine();
@@ -263,8 +265,8 @@ static void send(const vertex *v, int has, int coordinates)
 }
 
 /* Draws a run, first + count elements: indices or not. how: 0 glBegin, 1 arrays, 2 indices. */
-static void draw_run(GLenum mode, int first, int count, int how, int type, int has, int coordinates, int way, int paints,
-                     int buffered)
+static void draw_run(GLenum mode, int first, int count, int how, int type, int has, int coordinates, int way,
+                     int paints, int buffered)
 {
     static const GLenum types[3] = {GL_UNSIGNED_BYTE, GL_UNSIGNED_SHORT, GL_UNSIGNED_INT};
     const char *const from[3] = {(const char *)(index_byte + first), (const char *)(index_short + first),
@@ -310,7 +312,8 @@ static void draw_batch(int way)
     const GLenum mode = modes[any(7)];
     const float step = any(2) ? 0.08f : any(2) ? 0.3f : 1.5f;
     const int odd = any(8) == 0, how = (int)any(3), type = (int)any(3), has = (int)any(16) | (simple ? 5 : 0),
-              coordinates = any(5) ? 2 : 4, is_long = any(simple ? 5 : 10) == 0, runs = is_long ? 1 + (int)any(2) : 1 + (int)any(RUNS),
+              coordinates = any(5) ? 2 : 4, is_long = any(simple ? 5 : 10) == 0,
+              runs = is_long ? 1 + (int)any(2) : 1 + (int)any(RUNS),
               paints = any(6) == 0 && how == 0, buffered = any(2) == 0;
     const int most = is_long ? VERTICES / 2 : 60, vertices = is_long ? 9000 : 1000;
     GLuint buffer[2];
@@ -337,7 +340,8 @@ static void draw_batch(int way)
         glNewList(1, way == WAY_LIST ? GL_COMPILE : GL_COMPILE_AND_EXECUTE);
     }
     for (int r = 0; r < runs; ++r) {
-        const int count = (int)any((uint32_t)most), first = (int)any((uint32_t)((how < 2 ? vertices : VERTICES) - most));
+        const int count = (int)any((uint32_t)most),
+                  first = (int)any((uint32_t)((how < 2 ? vertices : VERTICES) - most));
         draw_run(mode, first, count, how, type, has, coordinates, way, paints, buffered);
         if (how != 0) { /* the list's attributes end with the last element's */
             glColor4f(0.8f, 0.7f, 0.9f, 0.6f);
@@ -443,7 +447,8 @@ static void print_round(uint32_t r, int ways)
 int main(int argc, char **argv)
 {
     static const uint32_t usual[2][2] = {{0, 12}, {SIMPLE, 30}}; /* first, rounds */
-    const int pins = argc > 1 && strcmp(argv[1], "pin") == 0, prints = pins || (argc > 1 && strcmp(argv[1], "hash") == 0);
+    const int pins = argc > 1 && strcmp(argv[1], "pin") == 0,
+              prints = pins || (argc > 1 && strcmp(argv[1], "hash") == 0);
     int wrong = 0;
     for (int k = 0; k < (argc > 1 + prints ? 1 : 2); ++k) {
         const uint32_t rounds = argc > 1 + prints ? (uint32_t)atoi(argv[1 + prints]) : usual[k][1],

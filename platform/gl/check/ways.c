@@ -1,6 +1,7 @@
 /* ways.c: CPU time of one mesh by every way to send it: ways OURS THEIRS [ROUNDS [STATE]].
  *
- * A grid of 100,000 triangles is sent as triangles, strips, fans, quads and quad strips, by glBegin, arrays and indices,
+ * A grid of 100,000 triangles is sent as triangles, strips, fans, quads and quad strips, by glBegin, arrays and
+ * indices,
  * at once and from display lists. Each round runs all ways with each library, in a process of its own; the shortest
  * times count, in ms. */
 #define _GNU_SOURCE
@@ -20,13 +21,17 @@ enum { WIDTH = 1024, HEIGHT = 768, TRIANGLES = 100000, SIDE_MAX = 224, SIDE = 64
     X(glBegin, void, (GLenum)) X(glEnd, void, (void)) X(glVertex3fv, void, (const GLfloat *)) \
     X(glColor4ubv, void, (const GLubyte *)) X(glNormal3fv, void, (const GLfloat *)) \
     X(glTexCoord2fv, void, (const GLfloat *)) X(glNewList, void, (GLuint, GLenum)) X(glEndList, void, (void)) \
-    X(glCallList, void, (GLuint)) X(glEnable, void, (GLenum)) X(glDisable, void, (GLenum)) X(glClear, void, (GLbitfield)) \
-    X(glFinish, void, (void)) X(glTexParameteri, void, (GLenum, GLenum, GLint)) X(glTexEnvi, void, (GLenum, GLenum, GLint)) \
+    X(glCallList, void, (GLuint)) X(glEnable, void, (GLenum)) X(glDisable, void, (GLenum)) \
+    X(glClear, void, (GLbitfield)) \
+    X(glFinish, void, (void)) X(glTexParameteri, void, (GLenum, GLenum, GLint)) \
+    X(glTexEnvi, void, (GLenum, GLenum, GLint)) \
     X(glTexImage2D, void, (GLenum, GLint, GLint, GLsizei, GLsizei, GLint, GLenum, GLenum, const void *)) \
     X(glLightfv, void, (GLenum, GLenum, const GLfloat *)) X(glEnableClientState, void, (GLenum)) \
-    X(glMatrixMode, void, (GLenum)) X(glRotatef, void, (GLfloat, GLfloat, GLfloat, GLfloat)) X(glLoadIdentity, void, (void)) \
+    X(glMatrixMode, void, (GLenum)) X(glRotatef, void, (GLfloat, GLfloat, GLfloat, GLfloat)) \
+    X(glLoadIdentity, void, (void)) \
     X(glDisableClientState, void, (GLenum)) X(glVertexPointer, void, (GLint, GLenum, GLsizei, const void *)) \
-    X(glColorPointer, void, (GLint, GLenum, GLsizei, const void *)) X(glNormalPointer, void, (GLenum, GLsizei, const void *)) \
+    X(glColorPointer, void, (GLint, GLenum, GLsizei, const void *)) \
+    X(glNormalPointer, void, (GLenum, GLsizei, const void *)) \
     X(glTexCoordPointer, void, (GLint, GLenum, GLsizei, const void *)) X(glDrawArrays, void, (GLenum, GLint, GLsizei)) \
     X(glDrawElements, void, (GLenum, GLsizei, GLenum, const void *)) X(glGenBuffers, void, (GLsizei, GLuint *)) \
     X(glBindBuffer, void, (GLenum, GLuint)) X(glBufferData, void, (GLenum, GLsizeiptr, const void *, GLenum)) \
@@ -97,7 +102,8 @@ static void set_mesh(GLenum mode, int n)
                 add(a), add(b), add(c), add(d);
             } else if ((x & 1) != 0 && (y & 1) != 0) { /* fans of eight */
                 const int m = a;
-                add(m), add(m - w - 1), add(m - w), add(m - w + 1), add(m + 1), add(m + w + 1), add(m + w), add(m + w - 1);
+                add(m), add(m - w - 1), add(m - w), add(m - w + 1);
+                add(m + 1), add(m + w + 1), add(m + w), add(m + w - 1);
                 add(m - 1), add(m - w - 1);
                 end_run();
             }
@@ -248,7 +254,8 @@ static int run_all(const char *path, int to, int round, int only, int only_way)
                             }
                             p_glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, w == BUFFERS ? buffer[1] : 0);
                             if (w == BUFFERS) {
-                                p_glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)sizeof wide_index, wide_index, GL_STATIC_DRAW);
+                                p_glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)sizeof wide_index, wide_index,
+                                               GL_STATIC_DRAW);
                             }
                             point_at(NULL, states[s].how);
                         } else if (w != IMMEDIATE) {
