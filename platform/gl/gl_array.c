@@ -276,7 +276,7 @@ static void array_set_source(array_sources *s, const gl_array *a, size_t to, int
     if (a->buffer != NULL) {
         const size_t offset = (size_t)(uintptr_t)a->data;
         d->end = offset > a->buffer->bytes ? 0 : a->buffer->bytes - offset;
-        d->p = a->buffer->data + (d->end != 0 ? offset : 0);
+        d->p = d->end != 0 ? a->buffer->data + offset : a->buffer->data;
     }
 }
 
@@ -422,7 +422,6 @@ static void array_draw_shared(gl_context *c, const array_sources *s, GLenum mode
         }
         memcpy(&c->order_of[c->orders], place, each * sizeof place[0]);
         c->orders += (int32_t)each;
-        c->last_at = (int32_t)place[mode == GL_QUAD_STRIP ? 2 : each - 1];
     }
 }
 

@@ -288,7 +288,6 @@ typedef struct gl_context {
     uint32_t order_of[GL_ORDERS];
     int32_t orders;
     GLenum ordered; /* GL_TRIANGLES or GL_QUADS */
-    int32_t last_at; /* with orders of indexed arrays: the vertex of the last element; -1: the last vertex */
     uint32_t name_of[GL_BATCH + 4]; /* the element of an indexed array that a vertex of the batch is */
     int32_t slot_of[GL_SLOTS];      /* the vertex that an element may be */
     int32_t open; /* glVertex may append to the last look while count < open; 0: only gl_vertex_at may append */
@@ -310,6 +309,7 @@ typedef struct gl_context {
     uint32_t flat;
     float line_from[2];
     int32_t line_steep, begin_at, skips;
+    int32_t is_odd; /* 1: the texture coordinates of the batch's independent primitives need a shader */
     gl_texture *unit_texture[GL_UNITS]; /* the sampled texture: enabled and complete; or NULL */
     gl_image proxy[TARGETS];
     struct { const uint8_t *codes; int32_t width, height, kind; float x, y, zoom[2]; uint8_t colour[4]; } drawing;
@@ -421,14 +421,13 @@ void gl_vertices_at(gl_context *c, const gl_word *w, int32_t count, int32_t word
 int gl_can_order(const gl_context *c, GLenum primitive); /* 1: the batch may be in order_of */
 /* Vertices are appended, and order_of is written, by the caller, which draws when either is full. 0: an error. */
 int gl_order_begin(gl_context *c, GLenum primitive);
-void gl_light_last(gl_context *c, int32_t at); /* GL_COLOR_MATERIAL takes the colour of vertex `at` */
-int32_t gl_look_of(const gl_context *c, int32_t i); /* the look of vertex i */
 void gl_update_matrices(gl_context *c);
 void gl_set_draw(gl_context *c); /* derives draw.h's state from the context's */
 int gl_draw_func(GLenum func);
 void gl_light_vertex(gl_context *c, const gl_vertex *v, gl_made *made);
 void gl_light_codes(gl_context *c, int32_t from); /* colour_of the vertices from `from` on, from eye_of; one side */
 /* One side's colours at a place in eye space. seen: lights that are not hidden, a bit each. */
+void gl_light_track(gl_context *c); /* with GL_COLOR_MATERIAL: the material takes the current colour */
 void gl_light_side(const gl_context *c, const gl_material *m, const float eye[4], const float n[3], uint32_t seen,
                    float colour[4], float second[3]);
 /* Adds the light, pi times GL's, that a place with unit normal n receives. */

@@ -356,10 +356,7 @@ static int get_light(get_value *o, gl_context *c, GLenum a, GLenum n)
 static int get_material(get_value *o, gl_context *c, GLenum a, GLenum n)
 {
     GL_FAIL(a != GL_FRONT && a != GL_BACK, GL_INVALID_ENUM, 0)
-    if (gl_is_on(c, CAP_COLOR_MATERIAL)) {
-        const gl_word track[2] = {{.u = c->s.lighting.tracks_face}, {.u = c->s.lighting.tracks}};
-        gl_op_colour_material(c, track);
-    }
+    gl_light_track(c);
     const gl_material *m = &c->s.lighting.material[a == GL_BACK];
     switch (n) {
     COLOUR(GL_AMBIENT, m->ambient) COLOUR(GL_DIFFUSE, m->diffuse) COLOUR(GL_SPECULAR, m->specular)

@@ -118,10 +118,10 @@ static void light_track(gl_context *c, const float colour[4])
     }
 }
 
-void gl_light_last(gl_context *c, int32_t at)
+void gl_light_track(gl_context *c)
 {
-    if (at >= 0 && at < c->count && gl_is_on(c, CAP_COLOR_MATERIAL)) {
-        light_track(c, c->look[gl_look_of(c, at)].colour);
+    if (gl_is_on(c, CAP_COLOR_MATERIAL)) {
+        light_track(c, c->s.current.v.colour);
     }
 }
 
@@ -131,11 +131,10 @@ OP(colour_material)
     CHECK(face == GL_FRONT || face == GL_BACK || face == GL_FRONT_AND_BACK, GL_INVALID_ENUM)
     CHECK(mode == GL_AMBIENT || mode == GL_DIFFUSE || mode == GL_SPECULAR || mode == GL_EMISSION ||
               mode == GL_AMBIENT_AND_DIFFUSE, GL_INVALID_ENUM)
+    gl_light_track(c); /* the old ones stay */
     c->s.lighting.tracks_face = face;
     c->s.lighting.tracks = mode;
-    if (gl_is_on(c, CAP_COLOR_MATERIAL)) {
-        light_track(c, c->s.current.v.colour);
-    }
+    gl_light_track(c);
 }
 
 /* --- a vertex's colours ------------------------------------------------------------------------------------------- */

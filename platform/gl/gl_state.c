@@ -83,14 +83,12 @@ void gl_op_enable(gl_context *c, const gl_word *w)
     const int cap = state_cap(w[0].u);
     uint32_t bit = 0, *unit = cap < 0 ? state_unit_cap(c, w[0].u, &bit) : NULL;
     if (cap >= 0) {
+        gl_light_track(c); /* colours that were tracked stay */
         c->s.caps = (c->s.caps & ~((uint64_t)1 << cap)) | (uint64_t)(w[1].i != 0) << cap;
         if (cap == CAP_BOUNCED && w[1].i == 0) {
             c->bounce_failed = 0;
         }
-        if (cap == CAP_COLOR_MATERIAL && w[1].i != 0) {
-            const gl_word track[2] = {{.u = c->s.lighting.tracks_face}, {.u = c->s.lighting.tracks}};
-            gl_op_colour_material(c, track);
-        }
+        gl_light_track(c);
     } else if (unit != NULL) {
         *unit = (*unit & ~bit) | (w[1].i != 0 ? bit : 0);
     } else {
@@ -414,6 +412,7 @@ static const struct { GLbitfield bit; size_t at, bytes; } state_groups[] = {
 OP(push_attrib)
 {
     CHECK(c->saved_count < GL_ATTRIB_STACK, GL_STACK_OVERFLOW)
+    gl_light_track(c);
     c->saved[c->saved_count] = c->s;
     for (int i = 0; i < GL_UNITS * TARGETS; ++i) {
         c->saved_names[c->saved_count][i / TARGETS][i % TARGETS] =
@@ -470,6 +469,7 @@ OP(pop_attrib)
 {
     (void)w;
     CHECK(c->saved_count > 0, GL_STACK_UNDERFLOW)
+    gl_light_track(c);
     const gl_state *old = &c->saved[--c->saved_count];
     const GLbitfield bits = c->saved_bits[c->saved_count];
     for (size_t i = 0; i < sizeof state_groups / sizeof state_groups[0]; ++i) {

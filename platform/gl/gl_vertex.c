@@ -66,7 +66,8 @@ OP(begin)
     GL_FAIL(w[0].u > GL_POLYGON, GL_INVALID_ENUM, )
     const int is_static = gl_is_on(c, CAP_BOUNCED) && (c->list_depth > 0 || c->reads_static);
     const int waits = vertex_is_apart(c->primitive) ? c->orders == 0 : c->orders > 0;
-    if (c->count > 0 && (c->primitive != w[0].u || !waits || is_static != c->is_static)) {
+    if (c->count > 0 &&
+        (c->primitive != w[0].u || !waits || is_static != c->is_static || c->count == GL_BATCH)) { /* full of indices */
         gl_flush_vertices(c);
     }
     c->is_static = is_static;
@@ -110,8 +111,8 @@ static void vertex_append(gl_context *c, const float at[4], const gl_vertex *loo
     memcpy(c->at_of[c->count++], at, 4 * sizeof *at);
 }
 
-/* Found from the end. */
-int32_t gl_look_of(const gl_context *c, int32_t i)
+/* The look of vertex i, found from the end. */
+static int32_t vertex_look(const gl_context *c, int32_t i)
 {
     int32_t k = c->looks - 1;
     while (k > 0 && c->look_from[k] > i) {
@@ -122,7 +123,7 @@ int32_t gl_look_of(const gl_context *c, int32_t i)
 
 static gl_vertex vertex_copy(const gl_context *c, int32_t i)
 {
-    gl_vertex v = c->look[gl_look_of(c, i)];
+    gl_vertex v = c->look[vertex_look(c, i)];
     memcpy(v.at, c->at_of[i], sizeof v.at);
     return v;
 }
@@ -132,7 +133,7 @@ static int vertex_has_units(const gl_context *c)
     return gl_is_on(c, CAP_OFFSET_FILL) && c->s.polygon.units != 0.0f;
 }
 
-/* The looks of the batch's vertices `from` .. `to` - 1 need no shader for their texture coordinates. */
+/* The looks of the batch's vertices from `from` on need no shader for their texture coordinates. */
 static int vertex_looks_are_plain(const gl_context *c, int32_t from)
 {
     const gl_matrices *s = &c->texture[0];
@@ -190,7 +191,7 @@ static int vertex_order(gl_context *c, int32_t from)
 /* Draws the runs before the current one, which moves to the start of the batch. */
 static void vertex_move_down(gl_context *c)
 {
-    const int32_t from = c->begin_at, n = c->count - from, k = gl_look_of(c, from), looks = c->looks - k,
+    const int32_t from = c->begin_at, n = c->count - from, k = vertex_look(c, from), looks = c->looks - k,
                   made = maxi(c->made_count - from, 0);
     c->count = from;
     c->made_count = mini(c->made_count, from);
@@ -213,14 +214,13 @@ static void vertex_move_down(gl_context *c)
 static void vertex_turn_over(gl_context *c)
 {
     const GLenum p = c->primitive;
+    if (c->begin_at > 0) {
+        vertex_move_down(c);
+        return;
+    }
     if (vertex_is_apart(p)) {
         gl_flush_vertices(c);
         c->is_continued = 1;
-        c->begin_at = 0;
-        return;
-    }
-    if (c->begin_at > 0) {
-        vertex_move_down(c);
         return;
     }
     const int n = c->count, first = p == GL_TRIANGLE_FAN || p == GL_POLYGON ? 0 : n - 2;
@@ -318,6 +318,19 @@ static int vertex_end_run(gl_context *c)
     return plain && vertex_order(c, 0);
 }
 
+/* With a shader, all primitives of a batch would take it: those before this run are drawn if only one of both needs it. */
+static void vertex_keep_apart(gl_context *c)
+{
+    if (c->count == c->begin_at) {
+        return;
+    }
+    const int odd = !vertex_looks_are_plain(c, c->begin_at);
+    if (c->begin_at > 0 && odd != c->is_odd) {
+        vertex_move_down(c);
+    }
+    c->is_odd = odd;
+}
+
 OP(end)
 {
     if (w != NULL && w[0].u != 0 && c->skips) {
@@ -333,6 +346,7 @@ OP(end)
         while (c->looks > 0 && c->look_from[c->looks - 1] >= c->count) {
             --c->looks;
         }
+        vertex_keep_apart(c);
         if (c->render_mode == GL_RENDER && c->query == NULL) {
             return;
         }
@@ -384,13 +398,10 @@ static void vertex_make(gl_context *c, const float at[4], const gl_vertex *v, gl
 void gl_make_vertices(gl_context *c)
 {
     gl_update_matrices(c);
-    int32_t k = c->made_count < c->count ? gl_look_of(c, c->made_count) : 0;
+    int32_t k = c->made_count < c->count ? vertex_look(c, c->made_count) : 0;
     for (int i = c->made_count; i < c->count; ++i) {
         k += k + 1 < c->looks && c->look_from[k + 1] <= i;
         vertex_make(c, c->at_of[i], &c->look[k], &c->made[i]);
-    }
-    if (gl_is_on(c, CAP_LIGHTING) && c->made_count < c->count) {
-        gl_light_last(c, c->last_at);
     }
     c->made_count = c->count;
 }
@@ -844,7 +855,6 @@ static void vertex_set_lit(gl_context *c)
         }
     }
     gl_light_codes(c, c->made_count);
-    gl_light_last(c, c->last_at);
 }
 
 /* Sets the sizes of a mode of vertex_line_mode. */
@@ -954,7 +964,6 @@ void gl_flush_vertices(gl_context *c)
         vertex_general(c);
     }
     c->count = c->made_count = c->looks = c->open = c->orders = 0;
-    c->last_at = -1;
 }
 
 OP(rect)

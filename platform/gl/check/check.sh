@@ -24,7 +24,7 @@ own() {
 }
 
 # Hostile arguments, batches at the edges of the picture, two contexts in two threads, lit vertices, random draws by
-# every back end, and lists that fill the memory. CFLAGS are those of the library, as a sanitizer needs.
+# every back end, lists that fill the memory, and draws that wait in one batch. CFLAGS are those of the library, as a sanitizer needs.
 program() {
     if ! ${CC:-cc} ${CFLAGS:-} -std=gnu99 -O1 -Iplatform/gl/include -o "$out/$1" "$2" "$gl/libGL.a" -lm -lpthread; then
         bad "$2 does not compile"
@@ -38,6 +38,7 @@ threads() { program threads $here/threads.c; }
 full() { program full $here/full.c; }
 fours() { program fours $here/fours.c; }
 alike() { program alike $here/alike.c; }
+batches() { program batches $here/batches.c; }
 
 # Meshes by every primitive and every way to send them: the same pictures, and pinned hashes.
 meshes() {
@@ -106,8 +107,8 @@ piglit() {
     if [ -z "$missing" ]; then good; else bad "piglit: $missing"; fi
 }
 
-clients=${GL_CLIENTS:-own hostile outside threads full fours alike meshes bounced glu glfw pyopengl piglit}
-[ "$clients" = fast ] && clients="own hostile outside threads full fours alike meshes bounced glu glfw pyopengl"
+clients=${GL_CLIENTS:-own hostile outside threads full fours alike batches meshes bounced glu glfw pyopengl piglit}
+[ "$clients" = fast ] && clients="own hostile outside threads full fours alike batches meshes bounced glu glfw pyopengl"
 for client in $clients; do
     $client
 done
