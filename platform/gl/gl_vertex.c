@@ -154,10 +154,14 @@ static int vertex_looks_are_plain(const gl_context *c, int32_t from)
     return 1;
 }
 
+static int vertex_fills(const gl_context *c)
+{
+    return c->s.polygon.front == GL_FILL && c->s.polygon.back == GL_FILL && c->render_mode == GL_RENDER;
+}
+
 int gl_can_order(const gl_context *c, GLenum p)
 {
-    return c->s.polygon.front == GL_FILL && c->s.polygon.back == GL_FILL && c->render_mode == GL_RENDER &&
-           c->query == NULL && !vertex_has_units(c) && /* the batch decides how these are drawn */
+    return vertex_fills(c) && c->query == NULL && !vertex_has_units(c) && /* the batch decides how these are drawn */
            !gl_is_on(c, CAP_BOUNCED) && p >= GL_TRIANGLES && p <= GL_QUAD_STRIP &&
            (p != GL_QUAD_STRIP || c->s.lighting.shade != GL_FLAT); /* another vertex has a quad's flat colour */
 }
@@ -522,13 +526,18 @@ static int vertex_set_all_units(gl_context *c)
     return 1;
 }
 
+/* 1: a shader takes the flat colour of one primitive a call. */
+static int vertex_needs_flat(const gl_context *c) { return c->s.lighting.shade == GL_FLAT && c->shades; }
+
 /* A polygon whose sides may be drawn as lines or points. */
 static void vertex_polygon(gl_context *c, const uint32_t *at, int n, const int *edges)
 {
     const double area = vertex_area(c, at, n);
     const int back = (area < 0.0) == (c->s.polygon.front_face == GL_CCW);
     const GLenum mode = back ? c->s.polygon.back : c->s.polygon.front;
-    if (gl_is_on(c, CAP_CULL) && (c->s.polygon.cull == GL_FRONT_AND_BACK || (c->s.polygon.cull == GL_BACK) == back)) {
+    const int by_triangle = vertex_fills(c) && c->primitive != GL_POLYGON && !vertex_needs_flat(c); /* as vertex_areas */
+    if (gl_is_on(c, CAP_CULL) && (c->s.polygon.cull == GL_FRONT_AND_BACK ||
+                                  (!by_triangle && (c->s.polygon.cull == GL_BACK) == back))) {
         return;
     }
     c->side = back;
@@ -721,8 +730,7 @@ static int vertex_area_mode(const gl_context *c)
 {
     static const int modes[10] = {-1, -1, -1, -1, LMB_DRAW_TRIANGLES, LMB_DRAW_TRIANGLE_STRIP, LMB_DRAW_TRIANGLE_FAN,
                                   LMB_DRAW_QUADS, LMB_DRAW_QUAD_STRIP, -1};
-    const int fills = c->s.polygon.front == GL_FILL && c->s.polygon.back == GL_FILL && c->render_mode == GL_RENDER;
-    return fills ? modes[c->orders > 0 ? c->ordered : c->primitive] : -1;
+    return vertex_fills(c) ? modes[c->orders > 0 ? c->ordered : c->primitive] : -1;
 }
 
 /* draw.h's primitive if the batch is lines or points that need no values of their own for each; -1: not. */
@@ -906,7 +914,7 @@ static int vertex_plain_lines(gl_context *c, int shows)
 static int vertex_areas(gl_context *c)
 {
     const int mode = vertex_area_mode(c);
-    if (mode < 0 || (c->s.lighting.shade == GL_FLAT && c->shades) ||
+    if (mode < 0 || vertex_needs_flat(c) ||
         (gl_is_on(c, CAP_CULL) && c->s.polygon.cull == GL_FRONT_AND_BACK) ||
         (vertex_has_units(c) && !vertex_set_all_units(c))) {
         return 0;
@@ -919,7 +927,7 @@ static int vertex_areas(gl_context *c)
 static int vertex_lines(gl_context *c)
 {
     const int mode = vertex_line_mode(c);
-    if (mode < 0 || (c->s.lighting.shade == GL_FLAT && c->shades)) {
+    if (mode < 0 || vertex_needs_flat(c)) {
         return 0;
     }
     vertex_set_sizes(c);

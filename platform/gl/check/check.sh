@@ -24,7 +24,8 @@ own() {
 }
 
 # Hostile arguments, batches at the edges of the picture, two contexts in two threads, lit vertices, random draws by
-# every back end, lists that fill the memory, and draws that wait in one batch. CFLAGS are those of the library, as a sanitizer needs.
+# every back end, lists that fill the memory, and draws that wait in one batch. CFLAGS are those of the library, as a
+# sanitizer needs.
 program() {
     if ! ${CC:-cc} ${CFLAGS:-} -std=gnu99 -O1 -Iplatform/gl/include -o "$out/$1" "$2" "$gl/libGL.a" -lm -lpthread; then
         bad "$2 does not compile"

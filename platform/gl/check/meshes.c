@@ -446,11 +446,11 @@ static void print_round(uint32_t r, int ways)
 
 int main(int argc, char **argv)
 {
-    static const uint32_t usual[2][2] = {{0, 12}, {SIMPLE, 30}}; /* first, rounds */
+    static const uint32_t usual[3][2] = {{0, 12}, {SIMPLE, 30}, {2148, 1}}; /* first, rounds */
     const int pins = argc > 1 && strcmp(argv[1], "pin") == 0,
               prints = pins || (argc > 1 && strcmp(argv[1], "hash") == 0);
     int wrong = 0;
-    for (int k = 0; k < (argc > 1 + prints ? 1 : 2); ++k) {
+    for (int k = 0; k < (argc > 1 + prints ? 1 : 3); ++k) {
         const uint32_t rounds = argc > 1 + prints ? (uint32_t)atoi(argv[1 + prints]) : usual[k][1],
                        first = argc > 2 + prints ? (uint32_t)atoi(argv[2 + prints]) : usual[k][0];
         for (uint32_t r = first; r < first + rounds; ++r) {
