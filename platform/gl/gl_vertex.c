@@ -322,13 +322,27 @@ static int vertex_end_run(gl_context *c)
     return plain && vertex_order(c, 0);
 }
 
-/* With a shader, all primitives of a batch would take it: those before this run are drawn if only one of both needs it. */
+/* 1: the texture coordinates of this run need a shader. Generated ones are made now, as they are needed anyway. */
+static int vertex_run_is_odd(gl_context *c)
+{
+    int odd = 0;
+    if (c->s.texture.unit[0].on == 0 || c->s.texture.unit[0].gen == 0) {
+        return !vertex_looks_are_plain(c, c->begin_at);
+    }
+    gl_make_vertices(c);
+    for (int32_t i = c->begin_at; i < c->count; ++i) {
+        odd |= c->made[i].tex[0][3] != 1.0f;
+    }
+    return odd;
+}
+
+/* All primitives of a batch take a shader if one does: those before this run are drawn if only one of both needs it. */
 static void vertex_keep_apart(gl_context *c)
 {
     if (c->count == c->begin_at) {
         return;
     }
-    const int odd = !vertex_looks_are_plain(c, c->begin_at);
+    const int odd = vertex_run_is_odd(c);
     if (c->begin_at > 0 && odd != c->is_odd) {
         vertex_move_down(c);
     }
@@ -535,7 +549,7 @@ static void vertex_polygon(gl_context *c, const uint32_t *at, int n, const int *
     const double area = vertex_area(c, at, n);
     const int back = (area < 0.0) == (c->s.polygon.front_face == GL_CCW);
     const GLenum mode = back ? c->s.polygon.back : c->s.polygon.front;
-    const int by_triangle = vertex_fills(c) && c->primitive != GL_POLYGON && !vertex_needs_flat(c); /* as vertex_areas */
+    const int by_triangle = vertex_fills(c) && c->primitive != GL_POLYGON && !vertex_needs_flat(c); /* as together */
     if (gl_is_on(c, CAP_CULL) && (c->s.polygon.cull == GL_FRONT_AND_BACK ||
                                   (!by_triangle && (c->s.polygon.cull == GL_BACK) == back))) {
         return;

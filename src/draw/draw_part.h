@@ -171,8 +171,8 @@ static inline void quick_fetch(float out[4], const lmb_draw_vertices *v, uint32_
 void lmb_draw_quick_begin(lmb_draw_pass *pass, draw_vertex few[DRAW_FEW]);
 int lmb_draw_quick(const lmb_draw_pass *pass, uint32_t a, uint32_t b, uint32_t c, uint32_t flat);
 uint32_t lmb_draw_quick_run(const lmb_draw_pass *pass, uint32_t i, uint32_t count);
-/* other: draws triangles `n` .. `count` - 1 of strips, fans, polygons and quads in batches, until one needs another path
- * (a whole quad if the triangle is the first of two); returns the number of that one. Use it if DRAW_SMALLS is set. */
+/* Draws triangles `n` .. `count` - 1 of strips, fans, polygons and quads in batches, until one needs another path (a
+ * whole quad if the triangle is the first of two); returns the number of that one. Use it if DRAW_SMALLS is set. */
 uint32_t lmb_draw_quick_others(const lmb_draw_pass *pass, int32_t primitive, uint32_t n, uint32_t count);
 /* If pass->fills: fills a quad from places in the list. Returns 0, and draws nothing, if the quad is no upright
  * rectangle that pass->fills names, is clipped, or covers no pixel. */

@@ -346,7 +346,7 @@ typedef struct small_colours {
 } small_colours;
 
 /* The same and texture coordinates of triangle t. */
-LANE_INLINE void small_set_patch(lmb_draw_patch *out, const lmb_draw_small *b, const small_setup *s, int t)
+LANE_INLINE void small_set_painted(lmb_draw_patch *out, const lmb_draw_small *b, const small_setup *s, int t)
 {
     const int back = (int)(s->back >> t & 1u);
     const uint32_t n = s->first + (uint32_t)t;
@@ -420,13 +420,13 @@ LANE_INLINE void small_draw(const lmb_draw_small *b, const small_setup *s, int t
     lanei colour = lanei_splat((int32_t)packed);
     small_colours smooth;
     colour = b->swaps ? draw_swap(colour) : colour;
-    lmb_draw_patch patch;
+    lmb_draw_patch painted;
     draw_brush brush;
     draw_axes axes;
     if (textured) {
-        small_set_patch(&patch, b, s, t);
-        brush = draw_brush_of(&patch, meets);
-        axes = draw_axes_of(&brush, &patch);
+        small_set_painted(&painted, b, s, t);
+        brush = draw_brush_of(&painted, meets);
+        axes = draw_axes_of(&brush, &painted);
     } else if (varies) {
         small_set_smooth(&smooth, b, s, t);
     }
@@ -481,7 +481,7 @@ LANE_INLINE void small_draw(const lmb_draw_small *b, const small_setup *s, int t
             const lanei was = draw_load(to, b->colour_stride);
             if (textured) {
                 const draw_share share = small_share(n, &w, s->is_even);
-                const draw_found found = draw_find(&brush, &axes, &patch, &share);
+                const draw_found found = draw_find(&brush, &axes, &painted, &share);
                 const lanei texel = draw_painted(&brush, &found, bits);
                 draw_save(to, b->colour_stride,
                           lanei_pick(mask_of_bits(bits), draw_mixed(&brush, texel, b->swaps, was), was));

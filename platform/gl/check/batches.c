@@ -110,7 +110,7 @@ static void check_neighbours(void)
             draw_mesh(mode, how, near_how, neighbour, filter);
             if (memcmp(pixels[neighbour], pixels[0], sizeof pixels[0]) != 0) {
                 ++wrong;
-                fprintf(stderr, "batches: mode %u by %d changes by neighbour %d by %d\n", (unsigned)mode, how, neighbour,
+                fprintf(stderr, "batches: mode %u by %d, neighbour %d by %d\n", (unsigned)mode, how, neighbour,
                         near_how);
             }
         }

@@ -315,7 +315,7 @@ static void draw_batch(int way)
               coordinates = any(5) ? 2 : 4, is_long = any(simple ? 5 : 10) == 0,
               runs = is_long ? 1 + (int)any(2) : 1 + (int)any(RUNS),
               paints = any(6) == 0 && how == 0, buffered = any(2) == 0;
-    const int most = is_long ? VERTICES / 2 : 60, vertices = is_long ? 9000 : 1000;
+    const int most_of_run = is_long ? VERTICES / 2 : 60, vertices = is_long ? 9000 : 1000;
     GLuint buffer[2];
     set_mesh(vertices, step, odd);
     for (int i = 0; i < VERTICES; ++i) { /* neighbours are shared */
@@ -340,8 +340,8 @@ static void draw_batch(int way)
         glNewList(1, way == WAY_LIST ? GL_COMPILE : GL_COMPILE_AND_EXECUTE);
     }
     for (int r = 0; r < runs; ++r) {
-        const int count = (int)any((uint32_t)most),
-                  first = (int)any((uint32_t)((how < 2 ? vertices : VERTICES) - most));
+        const int count = (int)any((uint32_t)most_of_run),
+                  first = (int)any((uint32_t)((how < 2 ? vertices : VERTICES) - most_of_run));
         draw_run(mode, first, count, how, type, has, coordinates, way, paints, buffered);
         if (how != 0) { /* the list's attributes end with the last element's */
             glColor4f(0.8f, 0.7f, 0.9f, 0.6f);
@@ -446,11 +446,11 @@ static void print_round(uint32_t r, int ways)
 
 int main(int argc, char **argv)
 {
-    static const uint32_t usual[3][2] = {{0, 12}, {SIMPLE, 30}, {2148, 1}}; /* first, rounds */
+    static const uint32_t usual[4][2] = {{0, 12}, {SIMPLE, 30}, {2148, 1}, {4131, 1}}; /* first, rounds */
     const int pins = argc > 1 && strcmp(argv[1], "pin") == 0,
               prints = pins || (argc > 1 && strcmp(argv[1], "hash") == 0);
     int wrong = 0;
-    for (int k = 0; k < (argc > 1 + prints ? 1 : 3); ++k) {
+    for (int k = 0; k < (argc > 1 + prints ? 1 : 4); ++k) {
         const uint32_t rounds = argc > 1 + prints ? (uint32_t)atoi(argv[1 + prints]) : usual[k][1],
                        first = argc > 2 + prints ? (uint32_t)atoi(argv[2 + prints]) : usual[k][0];
         for (uint32_t r = first; r < first + rounds; ++r) {
