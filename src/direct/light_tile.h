@@ -24,8 +24,8 @@ lmb_status lmb_light_tile_add(lmb_irradiance *sum, lmb_glossy *glossy, lmb_irrad
 #if LMB_FACETS
 
 /* The two halves of lmb_direct_tile: the irradiance without shadows and the pixels that the map takes for lit, then the
- * sum over lit pixels. Between the two, a caller may trace the pixels that the first one returns: lit ones of which the
- * map is unsure. map: not NULL. is_brief: fewer, as for lmb_shadow_unsure. */
+ * sum over lit pixels. Between the two, a caller may trace the pixels that the first one returns: lit ones that the
+ * texels around them do not decide. map: not NULL. is_brief: fewer, as for lmb_shadow_unsure. */
 uint64_t lmb_direct_find(lmb_irradiance *one, uint64_t *lit, const light_tile *to, const lmb_light *light,
                          const lmb_shadow_map *map, int is_brief);
 void lmb_direct_add(lmb_irradiance *inout, const lmb_kernels *kernels, const lmb_irradiance *one, uint64_t lit);

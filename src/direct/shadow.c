@@ -332,10 +332,10 @@ NOINLINE int is_in_tip(lmb_shadow_query *query, const lmb_receiver *r, const lit
 
 #if LMB_FACETS
 
-/* --- pixels of which the map is unsure ---------------------------------------------------------------------------- */
+/* --- pixels that the texels around them do not decide ------------------------------------------------------------- */
 
 /* Returns 1 if one of the four texels around the place shows a surface in front of the receiver's plane. Otherwise the
- * surface is flat or convex around the place, and triangles between the texels that shadow the place are rare. */
+ * surface is flat or convex around the place, and a triangle that shadows the place rarely misses all four. */
 static int is_behind_some(lmb_shadow_query *query, const lmb_receiver *r)
 {
     lit_place at;

@@ -167,7 +167,7 @@ static lmb_status place_bvh(lmb_frame *f, frame_block *b)
 #endif
 
 #if LMB_TREES
-/* Does a frame without a full BVH trace lit pixels of which shadow maps are unsure? */
+/* Does a frame that needs no BVH for bounced light trace lit pixels that the texels around them do not decide? */
 static int traces_direct(const lmb_frame *f)
 {
     const int has_no_full = f->show == LMB_SHOW_DIRECT || f->transfer != NULL;

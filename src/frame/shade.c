@@ -51,7 +51,7 @@ NOINLINE uint64_t trace_moved(lmb_band_scratch *s, const lmb_frame *f, const lmb
 }
 
 /* The corner of a room, or triangles of walls, may be smaller than a texel of a shadow map. This traces segments to the
- * light from the lit pixels of which the map is unsure. Returns those that are in shadow. */
+ * light from the lit pixels that the texels around them do not decide. Returns those that are in shadow. */
 NOINLINE uint64_t find_leaks(lmb_band_scratch *s, const lmb_frame *f, const lmb_light *light, const light_tile *on,
                              uint64_t asked)
 {

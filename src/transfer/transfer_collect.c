@@ -183,8 +183,8 @@ static void enter_lit_half(lmb_transfer_part *p, const transfer_halving *h, int 
 /* --- walls -------------------------------------------------------------------------------------------------------- */
 
 /* The sides of a line on which one block shows the triangle, at cell middles: one bit for each side. The block lies
- * `across` and `down` of block (x, y). If the block shows only the triangle, the four corner cells decide, because the
- * function of the line grows or falls along each row and column, also when rounded. */
+ * `across` blocks to the right of block (x, y) and `down` blocks below it. If it shows only the triangle, the four
+ * corner cells decide, because the function of the line is monotone along each row and column, also when rounded. */
 static uint32_t sides_of_block(const collection *c, uint32_t id, const float line[3], int32_t x, int32_t y,
                                int32_t across, int32_t down)
 {

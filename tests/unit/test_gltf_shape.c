@@ -266,6 +266,23 @@ static void draws_crowds(void)
                           "\"type\":\"VEC3\"}]}"), "over 4194304 places");
 }
 
+/* A small file with 240,000 instances: 20,000 places without data, 12 primitives. */
+static void draws_large_crowds(void)
+{
+    static char text[4096] =
+        ASSET "\"extensionsRequired\":[\"EXT_mesh_gpu_instancing\"],\"nodes\":[{\"mesh\":0,\"extensions\":{"
+              "\"EXT_mesh_gpu_instancing\":{\"attributes\":{\"TRANSLATION\":4}}}}],\"meshes\":[{\"primitives\":[";
+    const char *data_of = DATA, *first = strstr(data_of, "\"accessors\":[");
+    CHECK(first != NULL);
+    for (int i = 0; i < 12; ++i)
+        strcat(text, i == 0 ? "{\"attributes\":{\"POSITION\":0}}" : ",{\"attributes\":{\"POSITION\":0}}");
+    strcat(text, "]}],\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},{},{},{},"
+                 "{\"componentType\":5126,\"count\":20000,\"type\":\"VEC3\"}],");
+    strcat(text, strstr(data_of, "\"bufferViews\""));
+    CHECK_LOADS(load_gltf(text, data()));
+    CHECK(loaded.scene.instance_count == 240000);
+}
+
 #define KEYS(output, path)                                                                                           \
     "\"animations\":[{\"samplers\":[{\"input\":9,\"output\":" output "}],\"channels\":[{\"sampler\":0,\"target\":"      \
     "{\"node\":0,\"path\":\"" path "\"}}]}],"
@@ -371,6 +388,7 @@ void test_gltf_shape(void)
     shapes_before_it_poses();
     hides();
     draws_crowds();
+    draws_large_crowds();
     moves_crowds();
     keeps_directions();
     reads_other_materials();

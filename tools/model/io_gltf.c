@@ -165,6 +165,9 @@ static int make_meshes(shown *to, uint64_t *total, const gltf_tree *t, gltf *g)
     return 1;
 }
 
+/* Instances that may take memory beside what the file's bytes allow. */
+enum { FREE_INSTANCES = 1 << 20 };
+
 /* Makes one instance per node, place and primitive; posed meshes are already in world space. */
 static int add_instances(const gltf_tree *t, gltf *g)
 {
@@ -175,6 +178,9 @@ static int add_instances(const gltf_tree *t, gltf *g)
         return 0;
     if (total > UINT32_MAX / sizeof(lmb_instance))
         return report_fail(g->b->r, "%s: too many instances", g->b->path);
+    if (GLTF_HAS_CROWDS && g->places > 0) /* a place of 12 bytes may show many primitives */
+        g->b->budget += (total < FREE_INSTANCES ? total : FREE_INSTANCES) *
+                        (sizeof(lmb_instance) + 3 * sizeof(uint32_t));
     g->b->instances = (lmb_instance *)build_keep(g->b, total, sizeof *g->b->instances);
     g->instance_node = (uint32_t *)build_keep(g->b, total, sizeof *g->instance_node);
     g->instance_shown = (uint32_t *)build_scratch(g->b, total, sizeof *g->instance_shown);

@@ -84,8 +84,10 @@ static const foreign_kind foreign_kinds[] = {
     {"BMP", MAGIC("BM????\0\0\0\0"), "magick in.bmp out.png"},
     {"Photoshop", MAGIC("8BPS"), "magick in.psd[0] out.png"},
     {"QOI", MAGIC("qoif"), "magick in.qoi out.png"},
-    {"PBM", MAGIC("P1?"), "pnmtopng in.pbm > out.png"},
-    {"PBM", MAGIC("P4?"), "pnmtopng in.pbm > out.png"},
+    {"PBM", MAGIC("P1\n"), "pnmtopng in.pbm > out.png"},
+    {"PBM", MAGIC("P4\n"), "pnmtopng in.pbm > out.png"},
+    {"PBM", MAGIC("P1 "), "pnmtopng in.pbm > out.png"},
+    {"PBM", MAGIC("P4 "), "pnmtopng in.pbm > out.png"},
 };
 
 /* TGA has no magic at the start, but most files have one at the end. */
