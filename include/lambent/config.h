@@ -86,9 +86,9 @@
 #define LMB_FACETS LMB_TREES
 #endif
 
-/* If frame.bvh has room for at most this many triangles, frames with LMB_SHOW_DIRECT or baked light trace lit pixels that
- * the four texels around them do not decide, in builds with LMB_FACETS. lmb_frame_init adds that room, 116 bytes a triangle, for
- * scenes of at most this size. In larger scenes, sealed rooms may show lit pixels. 0: never. */
+/* If frame.bvh has room for at most this many triangles, frames with LMB_SHOW_DIRECT or baked light trace lit pixels
+ * that the four texels around them do not decide, in builds with LMB_FACETS. lmb_frame_init adds that room, 116 bytes a
+ * triangle, for scenes of at most this size. In larger scenes, sealed rooms may show lit pixels. 0: never. */
 #ifndef LMB_TRACED_TRIANGLES
 #define LMB_TRACED_TRIANGLES 16384u
 #endif

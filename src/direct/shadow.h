@@ -52,10 +52,10 @@ void lmb_shadow_lit(lmb_lit_pixels *out, lmb_shadow_query *query, const lmb_kern
                     uint64_t asked);
 #endif
 #if LMB_FACETS
-/* Returns the lit pixels to trace, from lmb_shadow_lit's answer: all if up to two are lit, otherwise those in `doubtful`.
- * Also those in `beside` if all lit pixels are in one of the two sets, or up to 16 are lit, as in a sealed room.
- * is_brief: of these only pixels around which a texel shows a surface in front of their plane. That test takes about 700
- * instructions a pixel. */
+/* Returns the lit pixels to trace, from lmb_shadow_lit's answer: all if up to two are lit, otherwise those in
+ * `doubtful`. Also those in `beside` if all lit pixels are in one of the two sets, or up to 16 are lit, as in a sealed
+ * room. is_brief: of these only pixels around which a texel shows a surface in front of their plane. That test takes
+ * about 700 instructions a pixel. */
 uint64_t lmb_shadow_unsure(lmb_shadow_query *query, const lmb_tile *tile, const lmb_lit_pixels *found, int is_brief);
 #endif
 /* Returns 0 if the point is in shadow. */

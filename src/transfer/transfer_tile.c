@@ -52,8 +52,8 @@ static void enter_pixel_half(lmb_transfer_step *s, const transfer_halving *h, fl
     s[1].at = h->first + (uint32_t)s->second;
 }
 
-/* Returns 0 if cuts in a damaged file have made the weights too large. Halvings without a cut at most triple them: 40 of
- * these stay finite, so they need no check. */
+/* Returns 0 if cuts in a damaged file have made the weights too large. Halvings without a cut at most triple them: 40
+ * of these stay finite, so they need no check. */
 static int are_weights(const lmb_transfer_step *s)
 {
     float sum = 0.0f;
