@@ -134,7 +134,8 @@ static int crowd_world(gltf_matrix *out, gltf *g, const gltf_matrix *world, uint
 {
     gltf_matrix local;
     if (!model_compose(local.m, &g->place[place]))
-        return json_fail(&g->doc, node, g->b->r, "an instance's rotation is no quaternion (its length is 0 or not finite)");
+        return json_fail(&g->doc, node, g->b->r,
+                         "an instance's rotation is no quaternion (its length is 0 or not finite)");
     gltf_multiply(out, world, &local);
     for (int k = 0; k < 16; ++k) {
         if (!(fabs(out->m[k]) <= (double)FLT_MAX))
