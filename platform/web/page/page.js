@@ -763,7 +763,7 @@ function page() {
         return ['mix', '--photo', MIX.file[0], '--depth', MIX.file[1], '--intrinsics', MIX.lens, '--object', MIX.file[2], '--fit',
                 '--turn', $('mix-turn').value, '--show', $('mix-show').value, '--voxels', '6', '--samples', '1', '--light',
                 `spot:${x.toFixed(3)},${y.toFixed(3)},-2.4:${to.map((v) => v.toFixed(3)).join(',')}:14,13.2,12:20,38`,
-                '-q', '-o', 'other.ppm'];
+                '-o', 'other.ppm'];
     }
     const RELIEF = { far: 3, middle: 0.5 };
     const WORDS = {
