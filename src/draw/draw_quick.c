@@ -491,7 +491,8 @@ static void quick_count_small(const lmb_draw_pass *pass, const lmb_draw_small *b
 static void quick_set_rest(const lmb_draw_pass *pass, uint32_t n, uint32_t drawn)
 {
     draw_primitive *now = pass->now;
-    now->rest = drawn >= now->rest ? QUICK_REST : mini((int32_t)(2 * now->rest), QUICK_MOST_REST);
+    const int32_t rest = (int32_t)now->rest;
+    now->rest = (uint32_t)(drawn >= now->rest ? QUICK_REST : mini(2 * rest, QUICK_MOST_REST));
     now->small_from = n + now->rest;
 }
 
