@@ -268,26 +268,34 @@ static uint32_t list_other(const lmb_draw_pass *pass, int32_t primitive, uint32_
     }
 }
 
+#if LMB_DRAW_LANES
+/* Draws small triangles in batches from triangle n on. Returns the first that needs another path, or `past`. */
+static uint32_t list_small(const lmb_draw_pass *pass, int32_t primitive, uint32_t n, uint32_t past)
+{
+    const int quads = primitive == LMB_DRAW_QUADS || primitive == LMB_DRAW_QUAD_STRIP;
+    while (n < past && pass->few != NULL && (pass->draws & DRAW_SMALLS) != 0 && n >= pass->now->small_from) {
+        if (!quads || !list_rectangle(pass, primitive, n)) {
+            return lmb_draw_quick_others(pass, primitive, n, past);
+        }
+        n += 2;
+    }
+    return n;
+}
+#else
+#define list_small(pass, primitive, n, past) (n)
+#endif
+
 /* Strips, fans, polygons and quads of `count` places in the list: small triangles in batches; others, and some after
  * each of them, one by one. */
 static void list_others(const lmb_draw_pass *pass, int32_t primitive, uint32_t count)
 {
-    const int quads = primitive == LMB_DRAW_QUADS || primitive == LMB_DRAW_QUAD_STRIP;
     const uint32_t sides = count < 2 ? 0 : count - 2,
-                   past = primitive == LMB_DRAW_QUADS ? count / 4 * 2 : quads ? sides / 2 * 2 : sides;
-    for (uint32_t n = 0; n < past;) {
-#if LMB_DRAW_LANES
-        if (pass->few != NULL && (pass->draws & DRAW_SMALLS) != 0 && n >= pass->now->small_from) {
-            if (quads && list_rectangle(pass, primitive, n)) {
-                n += 2;
-                continue;
-            }
-            n = lmb_draw_quick_others(pass, primitive, n, past);
-        }
-#endif
-        if (n < past) {
-            n = list_other(pass, primitive, n, count);
-        }
+                   past = primitive == LMB_DRAW_QUADS        ? count / 4 * 2
+                          : primitive == LMB_DRAW_QUAD_STRIP ? sides / 2 * 2
+                                                             : sides;
+    uint32_t n = list_small(pass, primitive, 0, past);
+    while (n < past) {
+        n = list_small(pass, primitive, list_other(pass, primitive, n, count), past);
     }
 }
 
