@@ -282,7 +282,13 @@ static uint32_t list_small(const lmb_draw_pass *pass, int32_t primitive, uint32_
     return n;
 }
 #else
-#define list_small(pass, primitive, n, past) (n)
+static uint32_t list_small(const lmb_draw_pass *pass, int32_t primitive, uint32_t n, uint32_t past)
+{
+    (void)pass;
+    (void)primitive;
+    (void)past;
+    return n;
+}
 #endif
 
 /* Strips, fans, polygons and quads of `count` places in the list: small triangles in batches; others, and some after
@@ -293,9 +299,9 @@ static void list_others(const lmb_draw_pass *pass, int32_t primitive, uint32_t c
                    past = primitive == LMB_DRAW_QUADS        ? count / 4 * 2
                           : primitive == LMB_DRAW_QUAD_STRIP ? sides / 2 * 2
                                                              : sides;
-    uint32_t n = list_small(pass, primitive, 0, past);
-    while (n < past) {
-        n = list_small(pass, primitive, list_other(pass, primitive, n, count), past);
+    uint32_t n = 0;
+    while ((n = list_small(pass, primitive, n, past)) < past) {
+        n = list_other(pass, primitive, n, count);
     }
 }
 
