@@ -50,51 +50,57 @@ static void call_vertex(float x, float y, float z, float w)
     }
 }
 
-static void call_colour(float r, float g, float b, float a)
+/* The current values, if a call sets them at once; NULL: a list is compiled, or there is no context. */
+static inline gl_vertex *call_current(void)
 {
     gl_context *c = gl_now;
-    if (c != NULL && c->list_mode == 0) {
-        float *v = c->s.current.v.colour;
-        v[0] = r;
-        v[1] = g;
-        v[2] = b;
-        v[3] = a;
-        c->open = 0;
+    if (c == NULL || c->list_mode != 0) {
+        return NULL;
+    }
+    c->open = 0;
+    return &c->s.current.v;
+}
+
+static void call_colour(float r, float g, float b, float a)
+{
+    gl_vertex *v = call_current();
+    if (v == NULL) {
+        DO(colour, F(r), F(g), F(b), F(a));
         return;
     }
-    DO(colour, F(r), F(g), F(b), F(a));
+    v->colour[0] = r;
+    v->colour[1] = g;
+    v->colour[2] = b;
+    v->colour[3] = a;
 }
 
 static void call_normal(float x, float y, float z)
 {
-    gl_context *c = gl_now;
-    if (c != NULL && c->list_mode == 0) {
-        float *v = c->s.current.v.normal;
-        v[0] = x;
-        v[1] = y;
-        v[2] = z;
-        c->open = 0;
+    gl_vertex *v = call_current();
+    if (v == NULL) {
+        DO(normal, F(x), F(y), F(z));
         return;
     }
-    DO(normal, F(x), F(y), F(z));
+    v->normal[0] = x;
+    v->normal[1] = y;
+    v->normal[2] = z;
 }
+
 static void call_tex(GLenum unit, float s, float t, float r, float q)
 {
     DO(tex_coord, U(unit), F(s), F(t), F(r), F(q));
 }
 static void call_tex_2(float s, float t)
 {
-    gl_context *c = gl_now;
-    if (c != NULL && c->list_mode == 0) {
-        float *v = c->s.current.v.tex[0];
-        v[0] = s;
-        v[1] = t;
-        v[2] = 0.0f;
-        v[3] = 1.0f;
-        c->open = 0;
+    gl_vertex *v = call_current();
+    if (v == NULL) {
+        DO(tex_coord_2, F(s), F(t));
         return;
     }
-    DO(tex_coord_2, F(s), F(t));
+    v->tex[0][0] = s;
+    v->tex[0][1] = t;
+    v->tex[0][2] = 0.0f;
+    v->tex[0][3] = 1.0f;
 }
 static void call_raster(float x, float y, float z, float w) { DO(raster_pos, F(x), F(y), F(z), F(w)); }
 static void call_window(float x, float y, float z) { DO(window_pos, F(x), F(y), F(z)); }

@@ -4,30 +4,15 @@
  *   alike hash [ROUNDS [FIRST]]   prints a line a round, by the back end of the environment, to compare two libraries
  */
 #define _POSIX_C_SOURCE 200112L
-#include <GL/osmesa.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "random.h"
+
 enum { WIDTH = 136, HEIGHT = 90, SIDE = 64, BATCHES = 4, VERTICES = 24 };
 static unsigned char pixels[HEIGHT][WIDTH][4];
 static float depths[HEIGHT][WIDTH];
-static uint64_t seed;
-
-static uint32_t any(uint32_t count)
-{
-    seed = seed * 6364136223846793005u + 1442695040888963407u;
-    return (uint32_t)(seed >> 33) % count;
-}
-static float unit(void) { return (float)any(1 << 20) / (float)(1 << 20); }
-static float between(float low, float high) { return low + (high - low) * unit(); }
-static void enable(GLenum what, uint32_t one_in)
-{
-    if (any(one_in) == 0) {
-        glEnable(what);
-    }
-}
 
 static void set_texture(int u)
 {
@@ -216,14 +201,7 @@ static uint64_t draw_round(uint32_t round)
     glReadPixels(0, 0, wide, high, GL_DEPTH_COMPONENT, GL_FLOAT, depths);
     glFinish();
     const int good = glGetError() == GL_NO_ERROR;
-    for (size_t i = 0; i < sizeof pixels; ++i) {
-        hash = (hash ^ ((const unsigned char *)pixels)[i]) * 1099511628211u;
-    }
-    for (size_t i = 0; i < sizeof depths / sizeof depths[0][0]; ++i) {
-        uint32_t bits;
-        memcpy(&bits, &depths[i / WIDTH][i % WIDTH], sizeof bits);
-        hash = (hash ^ bits) * 1099511628211u;
-    }
+    hash = hash_picture(hash, &pixels[0][0][0], sizeof pixels, &depths[0][0], sizeof depths / sizeof depths[0][0]);
     OSMesaDestroyContext(context);
     return good ? hash : 0;
 }

@@ -3,7 +3,6 @@
  * Each round runs all workloads once with each library, in a process of its own; the shortest times count. */
 #define _GNU_SOURCE
 #include <GL/osmesa.h>
-#include <dlfcn.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -30,8 +29,7 @@ enum { WIDTH = 1024, HEIGHT = 768, TRIANGLES = 100000, LARGE = 1000, LISTED = 10
     X(glMaterialfv, void, (GLenum, GLenum, const GLfloat *)) X(glShadeModel, void, (GLenum)) \
     X(glFogi, void, (GLenum, GLint)) X(glFogf, void, (GLenum, GLfloat)) X(glFogfv, void, (GLenum, const GLfloat *)) \
     X(glGetString, const GLubyte *, (GLenum))
-#define POINTER(name, result, args) static result (*p_##name) args;
-CALLS(POINTER)
+#include "library.h"
 
 static unsigned char pixels[WIDTH * HEIGHT * 4];
 static unsigned seed;
@@ -309,24 +307,9 @@ static double cpu_seconds(void)
 /* In a process of its own: all workloads once to warm up, then measured. */
 static int run_all(const char *path, int to, int round)
 {
-    void *lib = dlopen(path, RTLD_NOW | RTLD_LOCAL);
     double seconds[WORKLOADS];
-    if (lib == NULL) {
-        fprintf(stderr, "speed: %s\n", dlerror());
+    if (!load_library("speed", path, pixels, WIDTH, HEIGHT, round == 0)) {
         return 2;
-    }
-    OSMesaContext (*create)(GLenum, GLint, GLint, GLint, OSMesaContext);
-    GLboolean (*make)(OSMesaContext, void *, GLenum, GLsizei, GLsizei);
-#define LOAD(pointer, name) do { void *f = dlsym(lib, name); memcpy(&pointer, &f, sizeof f); } while (0)
-    LOAD(create, "OSMesaCreateContextExt");
-    LOAD(make, "OSMesaMakeCurrent");
-#define FIND(name, result, args) LOAD(p_##name, #name);
-    CALLS(FIND)
-    if (!make(create(GL_RGBA, 24, 8, 0, NULL), pixels, GL_UNSIGNED_BYTE, WIDTH, HEIGHT)) {
-        return 2;
-    }
-    if (round == 0) {
-        fprintf(stderr, "%s: %s\n", path, (const char *)p_glGetString(GL_RENDERER));
     }
     p_glEnable(GL_DEPTH_TEST);
     for (int i = 0; i < WORKLOADS; ++i) {

@@ -1,12 +1,10 @@
 /* ways.c: CPU time of one mesh by every way to send it: ways OURS THEIRS [ROUNDS [STATE]].
  *
  * A grid of 100,000 triangles is sent as triangles, strips, fans, quads and quad strips, by glBegin, arrays and
- * indices,
- * at once and from display lists. Each round runs all ways with each library, in a process of its own; the shortest
- * times count, in ms. */
+ * indices, at once and from display lists. Each round runs all ways with each library, in a process of its own; the
+ * shortest times count, in ms. */
 #define _GNU_SOURCE
 #include <GL/osmesa.h>
-#include <dlfcn.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -37,8 +35,7 @@ enum { WIDTH = 1024, HEIGHT = 768, TRIANGLES = 100000, SIDE_MAX = 224, SIDE = 64
     X(glBindBuffer, void, (GLenum, GLuint)) X(glBufferData, void, (GLenum, GLsizeiptr, const void *, GLenum)) \
     X(glDeleteBuffers, void, (GLsizei, const GLuint *)) X(glDeleteLists, void, (GLuint, GLsizei)) \
     X(glGetString, const GLubyte *, (GLenum))
-#define POINTER(name, result, args) static result (*p_##name) args;
-CALLS(POINTER)
+#include "library.h"
 
 typedef struct vertex {
     float uv[2];
@@ -204,26 +201,11 @@ static void set_state(int how)
 
 static int run_all(const char *path, int to, int round, int only, int only_way)
 {
-    void *lib = dlopen(path, RTLD_NOW | RTLD_LOCAL);
     static double seconds[CASES];
     static unsigned char texels[SIDE * SIDE * 4];
     int k = 0;
-    if (lib == NULL) {
-        fprintf(stderr, "ways: %s\n", dlerror());
+    if (!load_library("ways", path, pixels, WIDTH, HEIGHT, round == 0)) {
         return 2;
-    }
-    OSMesaContext (*create)(GLenum, GLint, GLint, GLint, OSMesaContext);
-    GLboolean (*make)(OSMesaContext, void *, GLenum, GLsizei, GLsizei);
-#define LOAD(pointer, name) do { void *f = dlsym(lib, name); memcpy(&pointer, &f, sizeof f); } while (0)
-    LOAD(create, "OSMesaCreateContextExt");
-    LOAD(make, "OSMesaMakeCurrent");
-#define FIND(name, result, args) LOAD(p_##name, #name);
-    CALLS(FIND)
-    if (!make(create(GL_RGBA, 24, 8, 0, NULL), pixels, GL_UNSIGNED_BYTE, WIDTH, HEIGHT)) {
-        return 2;
-    }
-    if (round == 0) {
-        fprintf(stderr, "%s: %s\n", path, (const char *)p_glGetString(GL_RENDERER));
     }
     for (int i = 0; i < (int)sizeof texels; ++i) {
         texels[i] = (unsigned char)(i * 37);
