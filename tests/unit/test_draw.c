@@ -481,6 +481,37 @@ static void test_dropped(void)
     CHECK(stats.triangles == 22 && stats.triangles_dropped == 7 && case_guard_is_whole());
 }
 
+/* Small textured triangles, with a place of its own each: those with odd coordinates are dropped and counted. */
+static void test_dropped_coordinates(void)
+{
+    enum { TRIANGLES = 40 };
+    static const float odd[] = {(float)NAN, (float)INFINITY, 3e38f, -1048576.0f};
+    static const uint8_t white[4] = {255, 255, 255, 255};
+    const lmb_texture texture = {.texels = white, .width = 1, .height = 1, .levels = 1, .filter = LMB_NEAREST};
+    float at[3 * TRIANGLES][3], uv[3 * TRIANGLES][2];
+    lmb_stats stats;
+    lmb_draw_vertices v;
+    memset(&v, 0, sizeof v);
+    memset(&stats, 0, sizeof stats);
+    for (int i = 0; i < 3 * TRIANGLES; ++i) {
+        at[i][0] = (float)(i / 3 % 8 * 4 + (i % 3 == 2 ? 4 : 1));
+        at[i][1] = (float)(i / 24 * 4 + (i % 3 == 1 ? 4 : 1));
+        at[i][2] = 0.5f;
+        uv[i][0] = uv[i][1] = i % 15 == 7 ? odd[i / 15 % 4] : 0.5f; /* in triangle 2, 7, 12 ... */
+    }
+    v.positions = at;
+    v.uvs[0] = uv;
+    v.count = 3 * TRIANGLES;
+    case_begin();
+    state.kernels = picked_kernels();
+    state.stage[0].texture = &texture;
+    CHECK(lmb_draw_list(&drawn_on, &state, &v, LMB_DRAW_TRIANGLES, NULL, &stats) == LMB_OK);
+    CHECK(stats.triangles == TRIANGLES && stats.triangles_dropped == TRIANGLES / 5);
+    for (int i = 0; i < TRIANGLES; ++i) {
+        CHECK_MSG((drawn.colour[i / 8 * 4 + 1][i % 8 * 4 + 1][3] == 0) == (i % 5 == 2), "triangle %d", i);
+    }
+}
+
 /* A line without length has no pixel, wherever it lies in one, wide or not. */
 static void test_no_length(void)
 {
@@ -643,6 +674,7 @@ void test_draw(void)
     test_culls();
     test_formats();
     test_dropped();
+    test_dropped_coordinates();
     test_no_length();
     test_refused();
     test_random_states();

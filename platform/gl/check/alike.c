@@ -53,7 +53,11 @@ static void set_texture(int u)
         glTexImage2D(target, 0, (GLint)format, border ? 34 : wide, border ? 34 : high, border, GL_RGBA,
                      GL_UNSIGNED_BYTE, texels);
     }
-    glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, (GLint)modes[any(2) ? any(2) : any(6)]);
+    const GLenum mode = modes[any(2) ? any(2) : any(6)];
+    glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, (GLint)mode);
+    if (mode == GL_COMBINE) {
+        set_combine();
+    }
     glTexEnvfv(GL_TEXTURE_ENV, GL_TEXTURE_ENV_COLOR, colour);
     if (any(8) == 0) { /* a q that varies */
         matrix[3] = between(-0.5f, 0.5f);

@@ -32,27 +32,6 @@ static unsigned index_wide[VERTICES];
 static unsigned short index_short[VERTICES];
 static unsigned char index_byte[VERTICES];
 
-static void set_combine(void)
-{
-    static const GLenum rgb[9] = {GL_MODULATE, GL_REPLACE, GL_ADD, GL_ADD_SIGNED, GL_INTERPOLATE, GL_SUBTRACT,
-                                  GL_DOT3_RGB, GL_DOT3_RGBA, GL_MODULATE};
-    static const GLenum from[7] = {GL_TEXTURE, GL_PRIMARY_COLOR, GL_PREVIOUS, GL_CONSTANT, GL_TEXTURE0, GL_TEXTURE1,
-                                   GL_TEXTURE};
-    static const GLenum how[4] = {GL_SRC_COLOR, GL_ONE_MINUS_SRC_COLOR, GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA};
-    static const float scale[3] = {1, 2, 4};
-    glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_COMBINE);
-    glTexEnvi(GL_TEXTURE_ENV, GL_COMBINE_RGB, (GLint)rgb[any(9)]);
-    glTexEnvi(GL_TEXTURE_ENV, GL_COMBINE_ALPHA, (GLint)rgb[any(6)]);
-    for (int i = 0; i < 3; ++i) {
-        glTexEnvi(GL_TEXTURE_ENV, (GLenum)(GL_SOURCE0_RGB + i), (GLint)from[any(7)]);
-        glTexEnvi(GL_TEXTURE_ENV, (GLenum)(GL_SOURCE0_ALPHA + i), (GLint)from[any(7)]);
-        glTexEnvi(GL_TEXTURE_ENV, (GLenum)(GL_OPERAND0_RGB + i), (GLint)how[any(4)]);
-        glTexEnvi(GL_TEXTURE_ENV, (GLenum)(GL_OPERAND0_ALPHA + i), (GLint)how[2 + any(2)]);
-    }
-    glTexEnvf(GL_TEXTURE_ENV, GL_RGB_SCALE, scale[any(3)]);
-    glTexEnvf(GL_TEXTURE_ENV, GL_ALPHA_SCALE, scale[any(3)]);
-}
-
 static void set_texture(int u)
 {
     static const GLenum formats[6] = {GL_RGBA, GL_RGB, GL_ALPHA, GL_LUMINANCE, GL_LUMINANCE_ALPHA, GL_INTENSITY};

@@ -1,4 +1,4 @@
-/* random.h: random numbers and the hash of a picture, for alike.c and meshes.c. */
+/* random.h: random numbers, a random GL_COMBINE and the hash of a picture, for alike.c and meshes.c. */
 #ifndef CHECK_RANDOM_H
 #define CHECK_RANDOM_H
 
@@ -20,6 +20,28 @@ static void enable(GLenum what, uint32_t one_in)
     if (any(one_in) == 0) {
         glEnable(what);
     }
+}
+
+/* Of the current unit; it may read the texels of units 0 and 1. */
+static void set_combine(void)
+{
+    static const GLenum rgb[9] = {GL_MODULATE, GL_REPLACE, GL_ADD, GL_ADD_SIGNED, GL_INTERPOLATE, GL_SUBTRACT,
+                                  GL_DOT3_RGB, GL_DOT3_RGBA, GL_MODULATE};
+    static const GLenum from[7] = {GL_TEXTURE, GL_PRIMARY_COLOR, GL_PREVIOUS, GL_CONSTANT, GL_TEXTURE0, GL_TEXTURE1,
+                                   GL_TEXTURE};
+    static const GLenum how[4] = {GL_SRC_COLOR, GL_ONE_MINUS_SRC_COLOR, GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA};
+    static const float scale[3] = {1, 2, 4};
+    glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_COMBINE);
+    glTexEnvi(GL_TEXTURE_ENV, GL_COMBINE_RGB, (GLint)rgb[any(9)]);
+    glTexEnvi(GL_TEXTURE_ENV, GL_COMBINE_ALPHA, (GLint)rgb[any(6)]);
+    for (int i = 0; i < 3; ++i) {
+        glTexEnvi(GL_TEXTURE_ENV, (GLenum)(GL_SOURCE0_RGB + i), (GLint)from[any(7)]);
+        glTexEnvi(GL_TEXTURE_ENV, (GLenum)(GL_SOURCE0_ALPHA + i), (GLint)from[any(7)]);
+        glTexEnvi(GL_TEXTURE_ENV, (GLenum)(GL_OPERAND0_RGB + i), (GLint)how[any(4)]);
+        glTexEnvi(GL_TEXTURE_ENV, (GLenum)(GL_OPERAND0_ALPHA + i), (GLint)how[2 + any(2)]);
+    }
+    glTexEnvf(GL_TEXTURE_ENV, GL_RGB_SCALE, scale[any(3)]);
+    glTexEnvf(GL_TEXTURE_ENV, GL_ALPHA_SCALE, scale[any(3)]);
 }
 
 /* FNV-1a of bytes and of the bits of numbers. */
