@@ -383,29 +383,11 @@ static inline uint32_t array_slot(gl_context *c, const array_sources *s, int32_t
     return (uint32_t)at;
 }
 
-/* The places of primitive n in the indices of triangles, strips, fans, quads and quad strips. */
-static inline void array_places(uint32_t out[4], GLenum mode, uint32_t n)
-{
-    const uint32_t odd = n & 1u;
-    switch (mode) {
-    case GL_TRIANGLES: out[0] = 3 * n, out[1] = 3 * n + 1, out[2] = 3 * n + 2; break;
-    case GL_TRIANGLE_STRIP: out[0] = n + odd, out[1] = n + 1 - odd, out[2] = n + 2; break;
-    case GL_TRIANGLE_FAN: out[0] = 0, out[1] = n + 1, out[2] = n + 2; break;
-    case GL_QUADS: out[0] = 4 * n, out[1] = 4 * n + 1, out[2] = 4 * n + 2, out[3] = 4 * n + 3; break;
-    default: out[0] = 2 * n, out[1] = 2 * n + 1, out[2] = 2 * n + 3, out[3] = 2 * n + 2; break;
-    }
-}
-
 /* Filled primitives: vertices that several share are transformed and lit once. */
 static void array_draw_shared(gl_context *c, const array_sources *s, GLenum mode, uint32_t count, GLenum type,
                               const uint8_t *p)
 {
-    const uint32_t each = mode == GL_QUADS || mode == GL_QUAD_STRIP ? 4 : 3;
-    const uint32_t sides = count < 2 ? 0 : count - 2;
-    const uint32_t past = mode == GL_TRIANGLES    ? count / 3
-                          : mode == GL_QUADS      ? count / 4
-                          : mode == GL_QUAD_STRIP ? sides / 2
-                                                  : sides;
+    const uint32_t each = gl_order_each(mode), past = gl_order_past(mode, count);
     if (!gl_order_begin(c, mode)) {
         return;
     }
@@ -416,7 +398,7 @@ static void array_draw_shared(gl_context *c, const array_sources *s, GLenum mode
             gl_flush_vertices(c);
             from = 0;
         }
-        array_places(place, mode, n);
+        gl_order_places(place, mode, n);
         for (uint32_t k = 0; k < each; ++k) {
             place[k] = array_slot(c, s, from, array_index(type, p, place[k]));
         }

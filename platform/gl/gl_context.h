@@ -419,6 +419,28 @@ void gl_vertex_at(gl_context *c, const float at[4]);
 void gl_vertex_of(gl_context *c, const float at[4], const gl_vertex *look); /* with attributes of its own */
 void gl_vertices_at(gl_context *c, const gl_word *w, int32_t count, int32_t words); /* 3 (w is 1) or 4 words each */
 int gl_can_order(const gl_context *c, GLenum primitive); /* 1: the batch may be in order_of */
+/* Primitives of a run of triangles, strips, fans, quads or quad strips: vertices of one, and their number. */
+static inline uint32_t gl_order_each(GLenum mode) { return mode == GL_QUADS || mode == GL_QUAD_STRIP ? 4 : 3; }
+static inline uint32_t gl_order_past(GLenum mode, uint32_t vertices)
+{
+    const uint32_t sides = vertices < 2 ? 0 : vertices - 2;
+    return mode == GL_TRIANGLES    ? vertices / 3
+           : mode == GL_QUADS      ? vertices / 4
+           : mode == GL_QUAD_STRIP ? sides / 2
+                                   : sides;
+}
+/* The places of primitive n in its run. */
+static inline void gl_order_places(uint32_t out[4], GLenum mode, uint32_t n)
+{
+    const uint32_t odd = n & 1u;
+    switch (mode) {
+    case GL_TRIANGLES: out[0] = 3 * n, out[1] = 3 * n + 1, out[2] = 3 * n + 2; break;
+    case GL_TRIANGLE_STRIP: out[0] = n + odd, out[1] = n + 1 - odd, out[2] = n + 2; break;
+    case GL_TRIANGLE_FAN: out[0] = 0, out[1] = n + 1, out[2] = n + 2; break;
+    case GL_QUADS: out[0] = 4 * n, out[1] = 4 * n + 1, out[2] = 4 * n + 2, out[3] = 4 * n + 3; break;
+    default: out[0] = 2 * n, out[1] = 2 * n + 1, out[2] = 2 * n + 3, out[3] = 2 * n + 2; break;
+    }
+}
 /* Vertices are appended, and order_of is written, by the caller, which draws when either is full. 0: an error. */
 int gl_order_begin(gl_context *c, GLenum primitive);
 void gl_update_matrices(gl_context *c);
@@ -426,8 +448,8 @@ void gl_set_draw(gl_context *c); /* derives draw.h's state from the context's */
 int gl_draw_func(GLenum func);
 void gl_light_vertex(gl_context *c, const gl_vertex *v, gl_made *made);
 void gl_light_codes(gl_context *c, int32_t from); /* colour_of the vertices from `from` on, from eye_of; one side */
-/* One side's colours at a place in eye space. seen: lights that are not hidden, a bit each. */
 void gl_light_track(gl_context *c); /* with GL_COLOR_MATERIAL: the material takes the current colour */
+/* One side's colours at a place in eye space. seen: lights that are not hidden, a bit each. */
 void gl_light_side(const gl_context *c, const gl_material *m, const float eye[4], const float n[3], uint32_t seen,
                    float colour[4], float second[3]);
 /* Adds the light, pi times GL's, that a place with unit normal n receives. */

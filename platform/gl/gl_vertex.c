@@ -169,24 +169,19 @@ int gl_can_order(const gl_context *c, GLenum p)
 /* Puts the strip, fan or quad strip of vertices `from` .. count - 1 into order_of. Returns 0 if it lacks room. */
 static int vertex_order(gl_context *c, int32_t from)
 {
-    const uint32_t a = (uint32_t)from, n = (uint32_t)(c->count - from);
-    const int quads = c->primitive == GL_QUAD_STRIP;
+    const GLenum mode = c->primitive;
+    const uint32_t each = gl_order_each(mode), past = gl_order_past(mode, (uint32_t)(c->count - from));
     uint32_t *to = &c->order_of[c->orders];
-    if (c->orders + (quads ? 2 : 3) * (int32_t)n > GL_ORDERS) {
+    if ((uint32_t)c->orders + each * past > GL_ORDERS) {
         return 0;
     }
-    c->ordered = quads ? GL_QUADS : GL_TRIANGLES;
-    for (uint32_t i = 2; i < n && !quads; ++i, to += 3) {
-        const uint32_t odd = c->primitive == GL_TRIANGLE_STRIP ? i & 1u : 0;
-        to[0] = c->primitive == GL_TRIANGLE_STRIP ? a + i - 2 + odd : a;
-        to[1] = a + i - 1 - odd;
-        to[2] = a + i;
-    }
-    for (uint32_t i = 3; i < n && quads; i += 2, to += 4) {
-        to[0] = a + i - 3;
-        to[1] = a + i - 2;
-        to[2] = a + i;
-        to[3] = a + i - 1;
+    c->ordered = each == 4 ? GL_QUADS : GL_TRIANGLES;
+    for (uint32_t n = 0; n < past; ++n, to += each) {
+        uint32_t place[4];
+        gl_order_places(place, mode, n);
+        for (uint32_t k = 0; k < each; ++k) {
+            to[k] = (uint32_t)from + place[k];
+        }
     }
     c->orders = (int32_t)(to - c->order_of);
     return 1;

@@ -214,8 +214,8 @@ static void list_quad(const lmb_draw_pass *pass, uint32_t a, uint32_t b, uint32_
     list_triangle(pass, a, c, d, flat, 6 | chosen);
 }
 
-/* Draws quad n / 2 if it is an upright rectangle that pass->fills names. */
 #if LMB_DRAW_LANES
+/* Draws quad n / 2 if it is an upright rectangle that pass->fills names. */
 static int list_rectangle(const lmb_draw_pass *pass, int32_t primitive, uint32_t n)
 {
     const uint32_t i = primitive == LMB_DRAW_QUADS ? 2 * n : n,
