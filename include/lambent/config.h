@@ -88,9 +88,14 @@
 
 /* If frame.bvh has room for at most this many triangles, frames with LMB_SHOW_DIRECT or baked light trace lit pixels
  * that the four texels around them do not decide, in builds with LMB_FACETS. lmb_frame_init adds that room, 116 bytes a
- * triangle, for scenes of at most this size. In larger scenes, sealed rooms may show lit pixels. 0: never. */
+ * triangle, for scenes of at most this size. In larger scenes, sealed rooms may show lit pixels. 0: never, as in the
+ * tiny configuration, where the room would take a quarter of a frame's memory. */
 #ifndef LMB_TRACED_TRIANGLES
+#ifdef LMB_CONFIG_TINY
+#define LMB_TRACED_TRIANGLES 0u
+#else
 #define LMB_TRACED_TRIANGLES 16384u
+#endif
 #endif
 
 /* 0: this build has no light at single points (lambent/live.h); frames with LMB_GATHER_LIVE are refused. Saves 12 KiB

@@ -445,7 +445,7 @@ static void quick_set_small(lmb_draw_small *b, const lmb_draw_pass *pass)
     b->positions = (const float *)pass->vertices->positions;
     b->floats = pass->vertices->position_format == LMB_DRAW_F32X4 ? 4 : 3;
     b->colours = pass->vertices->colours;
-    b->uvs = pass->state->stage[0].texture != NULL ? pass->vertices->uvs[0] : NULL;
+    b->uvs = pass->state->stage[0].texture != NULL ? (const float *)pass->vertices->uvs[0] : NULL;
     b->middle_x = pass->middle_x;
     b->middle_y = pass->middle_y;
     b->snap_x = pass->snap_x;

@@ -299,13 +299,13 @@ static float threshold_of(const builder *b, const lmb_live_point *p)
                           live_hash(cell[axis], side, (uint32_t)level));
 }
 
-#define REST 0.35f /* of 0.5: the share of each third of a cell that counts as the middle of the third */
+#define MIDDLE_OFFSET 0.35f /* of 0.5: the share of each third of a cell that counts as the middle of the third */
 
 /* Moves a place, 0 .. 1 along a cell, towards the middle of a third, without a jump. */
 static float at_rest(float v)
 {
     const float third = floorf(3.0f * v), off = 3.0f * v - third - 0.5f;
-    const float over = maxf(absf(off) - REST, 0.0f) * (0.5f / (0.5f - REST));
+    const float over = maxf(absf(off) - MIDDLE_OFFSET, 0.0f) * (0.5f / (0.5f - MIDDLE_OFFSET));
     return (third + 0.5f + (off < 0.0f ? -over : over)) * (1.0f / 3.0f);
 }
 

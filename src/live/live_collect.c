@@ -17,12 +17,11 @@
 enum {
     BLOCK = 4,
     LARGE_BLOCK = 8,
-    OTHERS = 3, /* further points of a block that is not flat */
-    REST = 7,   /* the last slots of a tile's further points: they hold collector.rest, and never a point */
-    WIDE = 2,   /* blocks a side that are joined, */
-    NEXT = 4,   /* if so many a side are alike: light is finest at edges */
-    FACETS = 8, /* that are kept */
-    LINE = 64   /* bytes */
+    OTHERS = 3,     /* further points of a block that is not flat */
+    REST_SLOTS = 7, /* the last slots of a tile's further points: they hold collector.rest, and never a point */
+    WIDE = 2,       /* blocks a side that are joined, */
+    NEXT = 4,       /* if so many a side are alike: light is finest at edges */
+    FACETS = 8      /* that are kept */
 };
 #define MANY_BLOCKS (1u << 18)
 #define MANY_ELEMENTS (1u << 24)
@@ -48,11 +47,11 @@ static uint64_t bytes_of(uint32_t faces, int32_t side, uint32_t elements)
 {
     const uint64_t points = live_slots(faces, side) + (uint64_t)elements,
                    chunks = chunks_of(blocks_of(faces, side) + elements) * sizeof(lmb_live_chunk);
-    return chunks + points * (2 * sizeof(lmb_live_point)) + faces * (uint64_t)sizeof(lmb_live_face) + LINE;
+    return chunks + points * (2 * sizeof(lmb_live_point)) + faces * (uint64_t)sizeof(lmb_live_face) + CACHE_LINE;
 }
 
 /* Bytes from a pointer to the next cache line, where vectors do not straddle two. */
-static size_t to_line(const void *p) { return (LINE - (uintptr_t)p % LINE) % LINE; }
+static size_t to_line(const void *p) { return (CACHE_LINE - (uintptr_t)p % CACHE_LINE) % CACHE_LINE; }
 
 size_t lmb_live_bytes(uint32_t faces, int32_t side, uint32_t elements)
 {
@@ -99,7 +98,7 @@ static lmb_status set_face(lmb_live_face *out, const lmb_live *live, const lmb_s
     return side_by(map->size, each) > live->side ? LMB_ERR_CAPACITY : LMB_OK;
 }
 
-typedef char rest_fits[OTHERS * LMB_TILE_PIXELS * 2 <= REST * sizeof(lmb_live_point) ? 1 : -1];
+typedef char rest_fits[OTHERS * LMB_TILE_PIXELS * 2 <= REST_SLOTS * sizeof(lmb_live_point) ? 1 : -1];
 
 /* --- a tile of blocks --------------------------------------------------------------------------------------------- */
 
@@ -284,7 +283,7 @@ static uint32_t divide_block(collector *c, int *others, int32_t column, int32_t 
         left &= ~part[count];
     }
     c->shows[k] = (uint16_t)b.shown;
-    if (own != 0 && *others + count <= LIVE_SURFACES - REST) {
+    if (own != 0 && *others + count <= LIVE_SURFACES - REST_SLOTS) {
         *others += count;
         c->shows[k] = (uint16_t)own;
         for (int q = 0; q < count; ++q) {
@@ -433,7 +432,7 @@ static lmb_status collect_tile(collector *c, int32_t column, int32_t row)
     for (int32_t y = 0; y < LMB_TILE && row + y < c->side; ++y) {
         set_powers(power + y * LMB_TILE, c, column, row + y);
     }
-    c->rest = (uint16_t (*)[LMB_TILE_PIXELS])(void *)(others_of(c, column, row) + LIVE_SURFACES - REST);
+    c->rest = (uint16_t (*)[LMB_TILE_PIXELS])(void *)(others_of(c, column, row) + LIVE_SURFACES - REST_SLOTS);
     const lmb_status status = resolve_blocks(&others, c, column, row, power);
     for (int n = 0; n < LMB_TILE_PIXELS / (NEXT * NEXT) && status == LMB_OK; ++n) {
         const int k = n / (LMB_TILE / NEXT) * NEXT * LMB_TILE + n % (LMB_TILE / NEXT) * NEXT;

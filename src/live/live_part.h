@@ -68,6 +68,7 @@ uint32_t lmb_live_block_on(const lmb_live_block *block, const lmb_live_face *fac
 /* Blocks along a face's side. */
 static inline int32_t live_blocks(const lmb_live_face *f) { return (f->size + f->each - 1) / f->each; }
 
+enum { CACHE_LINE = 64 /* bytes: an alignment of memory */ };
 enum { LIVE_SURFACES = 64 /* slots for the other surfaces of 8 x 8 blocks; after the last point, a dark one */ };
 
 /* Tiles of 8 x 8 blocks in a face of `side` x `side` blocks. */
