@@ -507,7 +507,7 @@ symbols: $(LIB) ## functions that the library calls (mem*, sqrtf, floorf) and ex
 stack: $(LIB) ## the largest stack frames and calls; the limit is 4096 bytes each
 	@$(IN_SH) tests/scripts/stack.sh 4096
 
-headers: ## each public header compiles on its own, as C99 and as C++
+headers: ## each public header compiles on its own, as C99 and as C++; src compiles as one unit, as both
 	@$(IN_SH) tests/scripts/headers.sh
 
 contracts: ## each public call is documented with its statuses and stability, and is used

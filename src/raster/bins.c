@@ -415,7 +415,7 @@ typedef struct bin_drawing {
     lmb_fill_context context;
     lmb_setup_job job;
     const bin_pool *pool;
-    const bin *bin;
+    const bin *from;
     uint32_t large, large_block; /* the next large one: index and block */
     uint32_t asked, asks;        /* tested blocks; blocks still to be tested */
 } bin_drawing;
@@ -435,7 +435,7 @@ static void draw_large(const lmb_fill_context *c, const bin_large *l)
 static const bin_large *next_large(bin_drawing *d, uint32_t past)
 {
     const uint32_t i = d->large % LARGES_A_BLOCK;
-    if (d->large == d->bin->count[LARGE_BLOCKS]) {
+    if (d->large == d->from->count[LARGE_BLOCKS]) {
         return NULL;
     }
     const bin_large *large = (const bin_large *)(const void *)&d->pool->block[d->large_block] + i;
@@ -489,12 +489,12 @@ static int is_block_hidden(bin_drawing *d, const lmb_bin_block *block)
 static void draw_bin(bin_drawing *d)
 {
     const bin_pool *p = d->pool;
-    const uint32_t count = d->bin->count[SMALL_BLOCKS];
+    const uint32_t count = d->from->count[SMALL_BLOCKS];
     lmb_batch batch;
     d->asked = d->asks = 0;
     d->large = 0;
-    d->large_block = d->bin->first[LARGE_BLOCKS];
-    for (uint32_t n = 0, i = d->bin->first[SMALL_BLOCKS]; n < count; n += LMB_BATCH, i = p->next[i]) {
+    d->large_block = d->from->first[LARGE_BLOCKS];
+    for (uint32_t n = 0, i = d->from->first[SMALL_BLOCKS]; n < count; n += LMB_BATCH, i = p->next[i]) {
         const uint32_t own = count - n < LMB_BATCH ? count - n : LMB_BATCH;
         block_soon(p, p->next[i]);
         draw_block(d, &batch, &p->block[i], n, own, own == LMB_BATCH && is_block_hidden(d, &p->block[i]));
@@ -561,7 +561,7 @@ NOINLINE void draw_bin_rows(const lmb_target *target, const lmb_kernels *kernels
             }
             if (bins[i].past_id > bins[i].first_id && pool_find(&pool, &bins[i])) {
                 d.pool = &pool;
-                d.bin = &pool.bins[y >> shift];
+                d.from = &pool.bins[y >> shift];
                 draw_bin(&d);
             }
         }

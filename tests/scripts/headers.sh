@@ -1,5 +1,5 @@
-# headers.sh: checks that each public header compiles on its own, and twice, as C99 and as C++: CC and B in the
-# environment.
+# headers.sh: checks that each public header compiles on its own, and twice, as C99 and as C++, and that src compiles as
+# one unit as both, in each configuration, so that no two files give a name two meanings: CC and B in the environment.
 . tests/scripts/checks.sh
 
 warnings="-Wall -Wextra -pedantic -Wshadow -Werror -Iinclude"
@@ -29,4 +29,19 @@ has_cxx=$($CC -x c++ -fsyntax-only "$dir/empty.inc" 2>/dev/null && echo yes)
 [ -n "$has_cxx" ] || skip "headers as C++: $CC compiles no C++ here"
 try c c99
 [ -z "$has_cxx" ] || try c++ c++98
+
+# one_unit TEXT OPTION...: compiles all of src but the kernels as one unit, without output.
+one_unit() {
+    text=$1
+    shift
+    for path in src/*/*.c; do
+        case $path in src/isa/*) ;; *) printf '#include "%s"\n' "$path" ;; esac
+    done | $CC "$@" -Werror -Iinclude -I. -fsyntax-only - >"$dir/one_unit.log" 2>&1
+    status=$?
+    [ $status -eq 0 ] || grep -m 5 error: "$dir/one_unit.log"
+    check "src as one unit, $text" test $status -eq 0
+}
+one_unit "C99" -x c -std=c99 -Wall
+one_unit "C99, tiny configuration" -x c -std=c99 -Wall -DLMB_CONFIG_TINY
+[ -z "$has_cxx" ] || one_unit "C++" -x c++ -std=c++17 -w
 finish
