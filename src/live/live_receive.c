@@ -30,8 +30,11 @@ static void cut(lmb_live_scratch *s, const lmb_kernels *kernels, const lmb_live 
 /* Like crossed_per. */
 static float per_of(float d) { return absf(d) > 1e-20f ? 1.0f / d : d < 0.0f ? -1e20f : 1e20f; }
 
+#define RISE 0.125f /* of twice the offset */
+
 /* Is the segment from the receiver to twice the offset free, and does it stay on the receiver's triangle? If not,
- * another thin object is there, or the surface bends. */
+ * another thin object is there, or the surface bends. The segment rises from the surface: a wall that ends on the
+ * surface would not block a segment along the wall's lower edge. */
 static int is_free(lmb_live_scratch *s, const lmb_kernels *kernels, const lmb_live *live, const lmb_bvh *bvh,
                    const lmb_live_receiver *at)
 {
@@ -41,7 +44,8 @@ static int is_free(lmb_live_scratch *s, const lmb_kernels *kernels, const lmb_li
     if (at->id != 0 && dot3(on, on) > 0.01f * dot3(s->off, s->off)) {
         return 0;
     }
-    const float to[3] = {2.0f * s->off.x, 2.0f * s->off.y, 2.0f * s->off.z};
+    const lmb_vec3 up = mul3(at->face, RISE * sqrtf(dot3(s->off, s->off)));
+    const float to[3] = {2.0f * (s->off.x + up.x), 2.0f * (s->off.y + up.y), 2.0f * (s->off.z + up.z)};
     r->segments.at = at->position;
     for (int h = 0; h < 3; ++h) {
         r->to[h][0] = to[h];

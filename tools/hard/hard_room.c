@@ -187,6 +187,24 @@ static double lit_pixels(double *again, hard_stage *h, int kind, int light, uint
     return lit;
 }
 
+/* Adds pixels whose bounced light exceeds 1e-4 of the irradiance outside, inside a room. */
+static double bounced_pixels(hard_stage *h, int kind, int light, uint64_t seed)
+{
+    uint64_t rng = seed * 2654435761u + (uint64_t)(kind * LIGHTS + light);
+    const sealed_room r = make_room(h, kind, &rng, seed % 3 != 0);
+    const double outside = light == SUN ? 10.0 : 500.0 / 64;
+    double over = 0;
+    put_lamp(h, &r, light, &rng);
+    look_around(h, &r, &rng);
+    h->gather_step = LMB_GATHER_LIVE;
+    const lmb_status status = hard_end(h) ? hard_frame(h, LMB_SHOW_INDIRECT, MAP, 0.05f) : LMB_ERR_CAPACITY;
+    h->gather_step = 0;
+    for (int i = 0; i < SIDE * SIDE && status == LMB_OK; ++i) {
+        over += !((double)h->out[3 * i] * PI / 0.8 <= 1e-4 * outside);
+    }
+    return status == LMB_OK ? over : HUGE_VAL;
+}
+
 /* Pixels that are lit through a gap under a door: by rays, and of these by the library. */
 typedef struct through_gap {
     double lit, lost, found; /* found: lit by the library only */
@@ -258,7 +276,7 @@ void hard_room(hard_list *list)
         "domes on the ground",
         "cones on the ground",
         "tents on the ground"};
-    enum { SEEDS = 6, GAPS = 12 };
+    enum { SEEDS = 6, LIVE_SEEDS = 3, GAPS = 12 };
     through_gap gap = {0, 0, 0};
     double again = 0;
     for (int kind = 0; kind < ROOMS; ++kind) {
@@ -269,6 +287,13 @@ void hard_room(hard_list *list)
         hard_put(list, HARD_MEASURED, name[kind], lit, 0, "px");
     }
     hard_put(list, HARD_MEASURED, "all of them as another picture of a full frame", again, 0, "px");
+    double over = 0;
+    for (int k = 0; k < ROOMS * LIVE_SEEDS * LIGHTS; ++k) {
+        over += bounced_pixels(list->stage, k / (LIVE_SEEDS * LIGHTS), k % LIGHTS,
+                               (uint64_t)(1 + k % (LIVE_SEEDS * LIGHTS) / LIGHTS));
+    }
+    hard_put(list, HARD_MEASURED, "all of them in bounced light at single points: pixels over 1e-4",
+             100 * over / (ROOMS * LIVE_SEEDS * LIGHTS * SIDE * SIDE), 0.02, "%");
     double segments = 0;
     for (int i = 0; i < SEEDS * LIGHTS; ++i) {
         segments += segments_of_balls(list->stage, i % LIGHTS, (uint64_t)(1 + i / LIGHTS));
