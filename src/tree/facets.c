@@ -19,6 +19,7 @@
 #define MAX_HIDDEN_ROWS 1.0f /* rows of pixels: if more of a part does not show, something hides it */
 #define MAX_SMALL_SHARE 0.5f /* of a cell: a triangle that covers less is small */
 #define SPECK_SHARE 0.5f /* of the pixels that show a triangle: if it covers less, it represents others, too */
+#define SNAPPED (1.0f / 64.0f) /* of a part: a snapped corner moves a pixel's middle past an edge by less */
 #define STEEP_FACET 0.35f /* cosine to the light: at a sharp edge, steeper planes reach far past their triangles */
 
 /* --- at the tree's building --------------------------------------------------------------------------------------- */
@@ -150,11 +151,12 @@ static float height_over(const lmb_facets *f, int s, lmb_vec3 at)
     return dot3(f->surface[s].normal, sub3(at, f->surface[s].on));
 }
 
-static int are_before(const lmb_facets *f, int of, uint64_t pixels, int s)
+/* Are the middles of surface `of` in these pixels more than `least` in front of surface s? */
+static int are_before(const lmb_facets *f, int of, uint64_t pixels, int s, float least)
 {
     int before = 1;
     for (; pixels != 0 && before; pixels &= pixels - 1) {
-        before = height_over(f, s, place_of_corner(f, of, lowest_bit_64(pixels))) > 0.0f;
+        before = height_over(f, s, place_of_corner(f, of, lowest_bit_64(pixels))) > least;
     }
     return before;
 }
@@ -164,11 +166,15 @@ static void clip_by_others(lmb_facet *inout, const lmb_facets *f, int s, uint64_
 {
     lmb_vec3 out[POLYGON_CORNERS + 1];
     for (int o = 0; o < f->surfaces; ++o) {
-        float low = 0.0f;
+        float low = 0.0f, high = 0.0f;
         for (int i = 0; i < inout->corners && o != s; ++i) {
-            low = minf(low, height_over(f, o, inout->corner[i]));
+            const float height = height_over(f, o, inout->corner[i]);
+            low = minf(low, height);
+            high = maxf(high, height);
         }
-        if (low < 0.0f && are_before(f, s, pixels, o) && are_before(f, o, f->surface[o].pixels, s)) {
+        const float least = SNAPPED * (low - high);
+        if (low < 0.0f && are_before(f, s, pixels, o, least) &&
+            are_before(f, o, f->surface[o].pixels, s, least)) {
             for (int i = 0; i < inout->corners; ++i) {
                 inout->corner[i] = sub3(inout->corner[i], f->surface[o].on);
             }
@@ -366,7 +372,7 @@ static void next_part(lmb_facet *out, lmb_facets *f)
     lmb_triangle t;
     whole_part(out, &t, f, s->id);
     const float more = out->area * out->per_area < MAX_SMALL_SHARE && !s->is_speck ? f->more : 1.0f;
-    if (f->left == s->pixels && lacks_pixels(out, f, s->pixels)) {
+    if (f->left == s->pixels) {
         clip_by_others(out, f, f->at_surface, s->pixels);
     }
     if (s->is_speck || f->left != s->pixels || lacks_pixels(out, f, s->pixels)) {

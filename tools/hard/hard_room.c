@@ -250,6 +250,41 @@ static void look_through_gap(through_gap *out, hard_stage *h, double gap, uint64
     }
 }
 
+/* Two rooms of one floor and one roof, with a wall of no thickness between them and a lamp in the first one. Returns the
+ * brightest pixel of bounced light at the wall's foot in the second one, relative to the lamp's light 3 m away. */
+static double beside_wall(hard_stage *h, uint64_t seed)
+{
+    uint64_t rng = seed * 2654435761u;
+    sealed_room r = {CLOSED, 1 + (int)(seed % 2) * 3, 0, 0, 0, 0, 0, {3, 1.2, 0}, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                     {0, 0, 0}};
+    r.half.z = hard_uniform(&rng, 1.2, 3.0);
+    if (seed % 3 != 0) {
+        r.axis[0] = hard_direction(&rng);
+        r.axis[1] = dvec_unit(dvec_cross(r.axis[0], hard_direction(&rng)));
+        r.axis[2] = dvec_cross(r.axis[0], r.axis[1]);
+    }
+    hard_begin(h, 0.8);
+    put_walls(h, &r, &rng);
+    const dvec foot[2] = {room_place(&r, dvec_of(0, 0, -r.half.z)), room_place(&r, dvec_of(0, 0, r.half.z))};
+    const dvec top[2] = {room_place(&r, dvec_of(0, 2.4, -r.half.z)), room_place(&r, dvec_of(0, 2.4, r.half.z))};
+    hard_triangle(h, foot[0], foot[1], top[1]);
+    hard_triangle(h, foot[0], top[1], top[0]);
+    const double x = hard_uniform(&rng, -2.5, -0.2), y = hard_uniform(&rng, 0.4, 2.0);
+    hard_point(h, room_place(&r, dvec_of(x, y, hard_uniform(&rng, -1, 1))), 100.0);
+    const double z = hard_uniform(&rng, -1, 1), aim = hard_uniform(&rng, -1, 1);
+    hard_look(h, room_place(&r, dvec_of(0.6, 0.5, z)), room_place(&r, dvec_of(0, 0, aim)), 60.0, SIDE);
+    h->view.near_m = 0.01f;
+    if (!hard_end(h) || hard_frame(h, LMB_SHOW_INDIRECT, HARD_MAP, 0.02f) != LMB_OK) {
+        return HUGE_VAL;
+    }
+    double worst = 0;
+    for (int i = 0; i < SIDE * SIDE; ++i) {
+        const double e = (double)h->out[3 * i] * PI / 0.8 / (100.0 / 9);
+        worst = e <= worst ? worst : e;
+    }
+    return worst;
+}
+
 /* Segments of a frame that shows balls of small triangles from outside, in light. */
 static double segments_of_balls(hard_stage *h, int light, uint64_t seed)
 {
@@ -276,7 +311,7 @@ void hard_room(hard_list *list)
         "domes on the ground",
         "cones on the ground",
         "tents on the ground"};
-    enum { SEEDS = 6, LIVE_SEEDS = 3, GAPS = 12 };
+    enum { SEEDS = 6, LIVE_SEEDS = 3, WALLS = 8, GAPS = 12 };
     through_gap gap = {0, 0, 0};
     double again = 0;
     for (int kind = 0; kind < ROOMS; ++kind) {
@@ -294,6 +329,13 @@ void hard_room(hard_list *list)
     }
     hard_put(list, HARD_MEASURED, "all of them in bounced light at single points: pixels over 1e-4",
              100 * over / (ROOMS * LIVE_SEEDS * LIGHTS * SIDE * SIDE), 0.02, "%");
+    double beside = 0;
+    for (int i = 0; i < WALLS; ++i) {
+        const double worst = beside_wall(list->stage, (uint64_t)(17 + i));
+        beside = worst <= beside ? beside : worst;
+    }
+    hard_put(list, HARD_MEASURED, "gathered light beside a wall on one floor: worst pixel", beside, 1e-4,
+             "of the lit side's");
     double segments = 0;
     for (int i = 0; i < SEEDS * LIGHTS; ++i) {
         segments += segments_of_balls(list->stage, i % LIGHTS, (uint64_t)(1 + i / LIGHTS));
