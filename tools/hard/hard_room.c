@@ -250,7 +250,7 @@ static void look_through_gap(through_gap *out, hard_stage *h, double gap, uint64
     }
 }
 
-/* Two rooms of one floor and one roof, with a wall of no thickness between them and a lamp in the first one. Returns the
+/* Two rooms with one floor and one roof, a wall of no thickness between them, and a lamp in the first one. Returns the
  * brightest pixel of bounced light at the wall's foot in the second one, relative to the lamp's light 3 m away. */
 static double beside_wall(hard_stage *h, uint64_t seed)
 {
