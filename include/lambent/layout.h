@@ -96,7 +96,6 @@
 #define lmb_render_vertices         LMB_LAYOUT(lmb_render_vertices)
 #define lmb_resolve_albedo          LMB_LAYOUT(lmb_resolve_albedo)
 #define lmb_resolve_tile            LMB_LAYOUT(lmb_resolve_tile)
-#define lmb_survey_even             LMB_LAYOUT(lmb_survey_even)
 #define lmb_tile_noise              LMB_LAYOUT(lmb_tile_noise)
 #define lmb_transfer_many_lights    LMB_LAYOUT(lmb_transfer_many_lights)
 #define lmb_transfer_tile           LMB_LAYOUT(lmb_transfer_tile)

@@ -1,16 +1,11 @@
-/* plan.h: a frame before it is drawn: the stages that it runs or skips, with reasons and costs; and settings that meet
- * a budget.
+/* plan.h: a frame before it is drawn: the stages that it runs or skips, with reasons and costs.
  *
  *     lmb_render_begin(&r, &frame);          or lmb_render_reuse: checks the frame, writes no pixel
- *     lmb_plan_frame(&plan, &r, NULL);       the work of r: stages, operations, units, bytes
+ *     lmb_plan_frame(&plan, &r, 0.0, 0.0);   the work of r: stages, operations, units, bytes
  *
- * A frame skips only stages that can change no byte of the picture. To choose settings for a budget, the library draws
- * a few tiles of the scene at several settings, from coarse to fine: the rungs of a ladder (lmb_plan_rung).
- *
- *     lmb_survey_even(&places, &r, ...);           choose the tiles of a solved frame to sample
- *     lmb_render_sample(&sample, &r, ...);         light of these tiles with one rung, then with the next
- *     lmb_tile_sample_error(&sample, &next, 1.0f); difference between the two; put it and the counts into `facts`
- *     lmb_plan_choose(&choice, &facts, &budget, fixed);
+ * A frame skips only stages that can change no byte of the picture. The work of the gather is known only from samples:
+ * lmb_render_sample draws a few tiles of a solved frame and counts it. `lambent render --budget` compares samples of
+ * several settings and chooses one (tools/render/ladder.h).
  *
  * All results are functions of scene, view and numbers: no clock, the same on every target. Work is counted in units:
  * one is the time of a pixel gathering a node's light. To convert units to seconds, you can measure your computer with
@@ -56,7 +51,7 @@ typedef enum lmb_plan_stage {
     LMB_PLAN_STAGES
 } lmb_plan_stage;
 
-/* Reasons for skipping a stage or a shadow map. All but the last two change no byte. */
+/* Reasons for skipping a stage or a shadow map. All but the last change no byte. */
 typedef enum lmb_why {
     LMB_WHY_RUNS = 0,
     LMB_WHY_NOT_SHOWN,   /* the picture does not show it */
@@ -70,12 +65,11 @@ typedef enum lmb_why {
     LMB_WHY_CONVEX,      /* a convex, empty room: no triangle in it blocks */
     LMB_WHY_PAST,        /* a light: all of the scene lies past the faces */
     LMB_WHY_DIM,         /* a light: its bounced light is provably under half a display step everywhere */
-    LMB_WHY_BUDGET,      /* left out to meet a budget; the error is an estimate */
     LMB_WHYS
 } lmb_why;
 
-/* Effect of skipping a stage on the picture: the stage runs; no change; at most `bound`; an estimate. */
-typedef enum lmb_proof { LMB_PROOF_RUNS = 0, LMB_PROOF_EXACT, LMB_PROOF_BOUND, LMB_PROOF_ESTIMATE } lmb_proof;
+/* Effect of skipping a stage on the picture: the stage runs; no change; at most `bound`. */
+typedef enum lmb_proof { LMB_PROOF_RUNS = 0, LMB_PROOF_EXACT, LMB_PROOF_BOUND } lmb_proof;
 
 typedef struct lmb_plan_row {
     int32_t why, proof;  /* lmb_why, lmb_proof */
@@ -84,51 +78,6 @@ typedef struct lmb_plan_row {
     double work;         /* units */
     uint64_t bytes;      /* memory of the stage's results */
 } lmb_plan_row;
-
-/* Settings of bounced light with LMB_GROUP_CUT: the members of lmb_frame and lmb_tree of the same names. */
-typedef struct lmb_settings {
-    int32_t shadow_map, tree;
-    float error, visibility;
-    int32_t occlusion;
-} lmb_settings;
-
-/* Sampling results of one rung of the ladder (lmb_plan_rung). */
-typedef struct lmb_rung {
-    int32_t places;         /* sampled; 0: none, and the numbers are extrapolated from the rung before */
-    float pairs, segments;  /* per tile of the picture */
-    float error;            /* estimated upper bound, from lmb_tile_sample_error against the next rung; below 0: not
-                               checked */
-} lmb_rung;
-
-/* Sampling results of a solved frame. The last rung only checks the one before: it is never chosen. */
-enum { LMB_PLAN_RUNGS = 8 };
-typedef struct lmb_facts {
-    double triangles, faces, tiles, lights; /* of the scene; drawn, of maps; of the frame; that light directly */
-    double bounces, elements;               /* of the frame, one more if materials emit light; their capacity, 0:
-                                               none */
-    double pairs, segments;                 /* of all tiles, with the frame's own settings; both 0: unknown */
-    int32_t wanted_map;                     /* texels a side of a map with texels as fine as the picture */
-    int32_t max;                            /* upper limit for maps and trees, texels a side */
-    int32_t convex;                         /* 1: a convex, empty room: no triangle in it blocks */
-    lmb_rung rung[LMB_PLAN_RUNGS];
-} lmb_facts;
-
-/* Limits of a frame's cost; 0: no limit. */
-typedef struct lmb_budget {
-    double work;    /* units */
-    float error;    /* of bounced light, against a finer setting: see lmb_tile_sample_error */
-    uint64_t bytes; /* of maps, tree, the BVH, elements, view, picture and one thread's scratch */
-} lmb_budget;
-
-/* Settings for a budget, and their estimated cost. */
-typedef struct lmb_choice {
-    int32_t rung;
-    lmb_settings settings;
-    double work, op[LMB_OPS];
-    float error;   /* estimated upper bound; below 0: not checked */
-    uint64_t bytes;
-    int32_t meets; /* 1: meets the whole budget. An unchecked error meets no error budget */
-} lmb_choice;
 
 /* The tiles of a frame to sample. */
 enum { LMB_SAMPLE_TILES = 192, LMB_SAMPLE_PIXELS = LMB_SAMPLE_TILES * LMB_TILE_PIXELS };
@@ -158,51 +107,25 @@ extern "C" {
 
 /* lmb_plan_frame: predict the work of a frame that has begun, and has not gone on.
  *
- *   begun  by lmb_render_begin or lmb_render_reuse; read.
- *   facts  NULL: pairs and segments of the gather, which need sampling, count as 0, and so does their cost.
+ *   begun            by lmb_render_begin or lmb_render_reuse; read.
+ *   pairs, segments  of the gathers of all tiles, from samples; 0: unknown, and their cost counts as 0.
  * Counts of triangles, texels, pixels, tiles and lights are exact for frames drawn in one piece without holes in masks.
  * If you draw in parts, each part sets up all triangles. Returns LMB_OK, or LMB_ERR_ARG (null; a frame that failed or
  * has gone on). Cost: a pass over instances, lights and, if the scene may be convex, triangles. */
-lmb_status lmb_plan_frame(lmb_plan *out, const lmb_render *begun, const lmb_facts *facts);
+lmb_status lmb_plan_frame(lmb_plan *out, const lmb_render *begun, double pairs, double segments);
 
 /* lmb_plan_units: the work of one operation in units; 0 for other numbers. */
 double lmb_plan_units(int32_t op);
 
-/* lmb_survey_even: choose places that are spread evenly over a frame.
+/* lmb_render_sample: bounced light of a survey's places with the frame's current settings.
  *
  *   r       a frame with LMB_GROUP_CUT, at LMB_STAGE_BANDS, with a whole frame's eye; read. To change error,
  *           visibility and occlusion between samples, call lmb_render_again or write to r->frame.
- *   wanted  number of places, up to LMB_SAMPLE_TILES; there may be fewer.
- * The first few of them are spread evenly too, because sampling may end early. Returns LMB_OK or LMB_ERR_ARG. */
-lmb_status lmb_survey_even(lmb_survey *out, const lmb_render *r, int32_t wanted);
-
-/* lmb_render_sample: bounced light of a survey's places with the frame's current settings.
- *
- *   r       see lmb_survey_even; read.
  *   max     units of work after which no further place is sampled; 0: no limit. out->places is the number sampled.
  * Returns LMB_OK or LMB_ERR_ARG. A gather_step over 1 is also refused: its samples depend on those of the whole frame,
  * so some places do not show the cost. Cost: that of the places. */
 lmb_status lmb_render_sample(lmb_tile_sample *out, const lmb_render *r, lmb_band_scratch *scratch,
                              const lmb_survey *places, double max);
-
-/* lmb_tile_sample_error: the difference of `a` from `b` over the places that both have: root mean square over the
- * pixels' channels, without the worst 1 % of the pixels, divided by the mean of b. Places are few, so for an upper
- * bound `deviations` standard deviations of the mean square are added to the mean square. They are estimated from the
- * differences between places. Below 0 if there is no meaningful result: fewer than 4 places, or b is dark. */
-float lmb_tile_sample_error(const lmb_tile_sample *a, const lmb_tile_sample *b, float deviations);
-
-/* lmb_plan_rung: the settings of a rung; 0 is the coarsest. Rungs 3, 4 and 6 are `draft`, `default` and `best`; 5 lies
- * between `default` and `best`, and 7 is finer. Trees and maps have up to facts->max texels a side. */
-void lmb_plan_rung(lmb_settings *out, const lmb_facts *facts, int32_t rung);
-
-/* lmb_plan_cost: settings of a rung and their cost. `fixed`: bytes that no setting changes: picture, view, scratch, the
- * BVH, elements. out->meets is not set. */
-void lmb_plan_cost(lmb_choice *out, const lmb_facts *facts, int32_t rung, uint64_t fixed);
-
-/* lmb_plan_choose: the finest rung, sampled or extrapolated, within budget->work and bytes; with budget->error, the
- * coarsest rung that meets it too. If there is none, the nearest rung: out->meets is 0, and the numbers show the
- * difference. Returns LMB_OK or LMB_ERR_ARG. */
-lmb_status lmb_plan_choose(lmb_choice *out, const lmb_facts *facts, const lmb_budget *budget, uint64_t fixed);
 
 /* lmb_why_name, lmb_op_name, lmb_plan_stage_name: a short text; "?" for other numbers. Never NULL. */
 const char *lmb_why_name(int32_t why);

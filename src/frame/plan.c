@@ -8,14 +8,13 @@
 #include "stages.h"
 #include "requires.h"
 #include "plan_model.h"
-#include "plan_sample.h"
 
 #if LMB_PLAN
 
 typedef struct planner {
     lmb_plan *out;
     const lmb_render *r;
-    const lmb_facts *facts;
+    double pairs, segments; /* of the gathers of all tiles; 0: unknown */
     double pixels, tiles; /* of the frame, in whole tiles */
 } planner;
 
@@ -229,8 +228,9 @@ static void plan_gather(planner *p, lmb_why none)
     }
     row->op[LMB_OP_CUTS] =
         p->tiles / (requires_samples(p->r) ? LMB_TILE_PIXELS : 1.0) * (requires_elements(p->r) ? 2.0 : 1.0);
-    if (p->facts != NULL) {
-        lmb_facts_count(&row->op[LMB_OP_PAIRS], &traversal->op[LMB_OP_SEGMENTS], p->facts, f);
+    if (requires_cut(f)) {
+        row->op[LMB_OP_PAIRS] = p->pairs;
+        traversal->op[LMB_OP_SEGMENTS] = p->segments;
     }
     if (f->occlusion == LMB_OCCLUSION_NONE) {
         leave_out(p, LMB_PLAN_OCCLUSION, LMB_WHY_NOT_ASKED);
@@ -309,14 +309,14 @@ static void sum_up(lmb_plan *out)
     }
 }
 
-lmb_status lmb_plan_frame(lmb_plan *out, const lmb_render *begun, const lmb_facts *facts)
+lmb_status lmb_plan_frame(lmb_plan *out, const lmb_render *begun, double pairs, double segments)
 {
     if (out == NULL || begun == NULL || begun->frame.scene == NULL || begun->failed != LMB_OK ||
         begun->stage != LMB_STAGE_SHADOW_MAP || begun->light != 0 || begun->progress != 0) {
         return LMB_ERR_ARG;
     }
     const lmb_frame *f = &begun->frame;
-    planner p = {out, begun, facts, 0.0, 0.0};
+    planner p = {out, begun, pairs, segments, 0.0, 0.0};
     p.tiles = (double)((f->view.frame_width + LMB_TILE - 1) / LMB_TILE) * (double)band_count(&f->view);
     p.pixels = p.tiles * LMB_TILE_PIXELS;
     memset(out, 0, sizeof *out);

@@ -13,9 +13,4 @@ typedef struct plan_model {
 /* The model in plan_model.inc. */
 extern const plan_model lmb_model;
 
-/* Sets all of a choice except rung, settings, error and `meets`, from the settings and the pairs and segments of all
- * tiles. */
-void lmb_model_cost(lmb_choice *inout, const plan_model *m, const lmb_facts *f, double pairs, double segments,
-                    uint64_t fixed);
-
 #endif

@@ -22,7 +22,6 @@ const char *lmb_why_name(int32_t why)
         "a convex, empty room: nothing stands between",
         "all of the scene lies past it",
         "its bounce is under half a display step",
-        "left out to meet the budget",
     };
     return why >= 0 && why < LMB_WHYS ? names[why] : "?";
 }

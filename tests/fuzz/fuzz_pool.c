@@ -82,10 +82,10 @@ typedef struct kind {
 #define ONE(type)         {#type, sizeof(type), {{NULL, 0}}, {0}}
 #define MANY(type, count) {#type, (count) * sizeof(type), {{NULL, 0}}, {0}}
 static kind kinds[] = {
-    ONE(lmb_around_scratch), ONE(lmb_axes), ONE(lmb_band_scratch), ONE(lmb_budget), ONE(lmb_bvh), ONE(lmb_choice),
+    ONE(lmb_around_scratch), ONE(lmb_axes), ONE(lmb_band_scratch), ONE(lmb_bvh),
     ONE(lmb_cloud), ONE(lmb_cone_scratch), ONE(lmb_cone_seen), ONE(lmb_cone_trace), ONE(lmb_cone_width), ONE(lmb_cones),
     ONE(lmb_core), ONE(lmb_culling), ONE(lmb_cut), ONE(lmb_cut_params), ONE(lmb_element_scratch), ONE(lmb_elements),
-    ONE(lmb_env), ONE(lmb_facts), ONE(lmb_fixed), ONE(lmb_fixed_frame), ONE(lmb_fixed_view), ONE(lmb_frame),
+    ONE(lmb_env), ONE(lmb_fixed), ONE(lmb_fixed_frame), ONE(lmb_fixed_view), ONE(lmb_frame),
     ONE(lmb_frame_settings), ONE(lmb_gather_scratch), ONE(lmb_glossy), ONE(lmb_gouraud),
     ONE(lmb_gouraud_scratch), ONE(lmb_grouping), ONE(lmb_groups), ONE(lmb_hull), ONE(lmb_irradiance), ONE(lmb_lattice),
     ONE(lmb_live), ONE(lmb_live_receiver), ONE(lmb_live_scratch), ONE(lmb_live_sky), ONE(lmb_many_lights),
@@ -94,7 +94,7 @@ static kind kinds[] = {
     ONE(lmb_probe), ONE(lmb_probe_answer), ONE(lmb_probe_blur), ONE(lmb_probe_cache), ONE(lmb_probe_cube),
     ONE(lmb_probe_lights), ONE(lmb_probe_policy), ONE(lmb_probe_rays), ONE(lmb_probe_table), ONE(lmb_radiance),
     ONE(lmb_real_mesh), ONE(lmb_relief), ONE(lmb_relief_how), ONE(lmb_relief_stats), ONE(lmb_relight),
-    ONE(lmb_relight_scratch), ONE(lmb_render), ONE(lmb_settings), ONE(lmb_stats), ONE(lmb_surface), ONE(lmb_survey),
+    ONE(lmb_relight_scratch), ONE(lmb_render), ONE(lmb_stats), ONE(lmb_surface), ONE(lmb_survey),
     ONE(lmb_target), ONE(lmb_tile), ONE(lmb_tile_sample), ONE(lmb_transfer), ONE(lmb_transfer_light),
     ONE(lmb_transfer_scratch), ONE(lmb_traversal), ONE(lmb_tree), ONE(lmb_view), ONE(lmb_voxels), ONE(lmb_world),
     ONE(lmb_world_pictures), ONE(lmb_world_query), MANY(lmb_light, POOL_LIGHTS), MANY(lmb_shadow_map, POOL_MAPS),

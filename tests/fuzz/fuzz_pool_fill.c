@@ -231,23 +231,6 @@ static void fill_receiver(void *out, int how)
                                                         SLOT(lmb_cut), SLOT(lmb_tile), SLOT(lmb_irradiance), two};
 }
 
-static void fill_facts(void *out, int how)
-{
-    lmb_facts *f = out;
-    memset(f, 0, sizeof *f);
-    f->triangles = f->faces = f->tiles = f->lights = f->bounces = f->elements = 10.0;
-    f->pairs = f->segments = 1e5;
-    f->wanted_map = f->max = POOL_MAP;
-    for (int i = 0; i < LMB_PLAN_RUNGS; ++i) {
-        f->rung[i] = (lmb_rung){how & 1 << i ? 0 : 10, 100.0f * (float)(1 + i), 50.0f, 0.1f / (float)(1 + i)};
-    }
-}
-
-static void fill_budget(void *out, int how)
-{
-    *(lmb_budget *)out = (lmb_budget){1e6, 0.1f, how ? UINT64_C(1) << how % 40 : 0};
-}
-
 /* A tile as filled in by a program with its own rasterizer, including odd numbers, and ids of small scenes. */
 static void fill_tile(void *out, int how)
 {
@@ -480,7 +463,7 @@ static const struct {
     {"lmb_world_pictures", fill_pictures}, {"lmb_world_query", fill_world_query}, {"lmb_voxel_part", fill_parts},
     {"lmb_cone_trace", fill_trace}, {"lmb_probe_policy", fill_policy}, {"lmb_relight", fill_relight},
     {"lmb_probe", fill_probe}, {"lmb_gouraud", fill_gouraud}, {"lmb_element_scratch", fill_receiver},
-    {"lmb_facts", fill_facts}, {"lmb_budget", fill_budget}, {"lmb_tile", fill_tile},
+    {"lmb_tile", fill_tile},
     {"lmb_irradiance", fill_irradiance}, {"lmb_cone_seen", fill_seen}, {"lmb_vec3", fill_places},
     {"lmb_texel", fill_texels}, {"lmb_band_scratch", fill_scratch}, {"lmb_transfer_light", fill_transfer_light},
     {"lmb_frame", fill_frame}, {"lmb_culling", fill_culling}, {"lmb_cluster", fill_cluster},

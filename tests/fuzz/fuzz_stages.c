@@ -3,6 +3,7 @@
  *
  * Checks the promises of the headers about results: ranges, bits outside the mask, bytes that stay unchanged, and that
  * all backends compute the same. For promises that hold only for ordinary numbers, `plain` is set. */
+#include "../../tools/render/ladder.h"
 #include "fuzz_pool.h"
 
 #if FUZZ_CALLS
@@ -434,10 +435,10 @@ static void tile_noise(source *b)
 
 static void plan(source *b)
 {
-    lmb_facts f;
-    lmb_choice c;
-    lmb_settings s;
-    lmb_budget budget = {(double)number(b), number(b), (uint64_t)pool_whole(take(b))};
+    ladder_facts f;
+    ladder_choice c;
+    ladder_settings s;
+    ladder_budget budget = {(double)number(b), number(b), (uint64_t)pool_whole(take(b))};
     double *const n[] = {&f.triangles, &f.faces, &f.tiles, &f.lights, &f.bounces, &f.elements, &f.pairs, &f.segments};
     memset(&f, 0, sizeof f);
     for (int i = 0; i < COUNT(n); ++i) {
@@ -446,15 +447,17 @@ static void plan(source *b)
     f.wanted_map = whole(b);
     f.max = whole(b);
     f.convex = take(b) % 3;
-    for (int i = 0; i < LMB_PLAN_RUNGS; ++i) {
-        f.rung[i] = (lmb_rung){whole(b), number(b), number(b), number(b)};
+    for (int i = 0; i < LADDER_RUNGS; ++i) {
+        f.rung[i] = (ladder_rung){whole(b), number(b), number(b), number(b)};
     }
     const int32_t rung = whole(b);
     const uint64_t fixed = (uint64_t)pool_whole(take(b));
-    lmb_plan_rung(&s, &f, rung);
-    lmb_plan_cost(&c, &f, rung, fixed);
-    if (lmb_plan_choose(&c, &f, &budget, fixed) == LMB_OK) {
-        fuzz_require(c.rung >= 0 && c.rung < LMB_PLAN_RUNGS && (c.meets == 0 || c.meets == 1));
+    ladder_at(&s, &f, rung);
+    if (rung >= 0 && rung < LADDER_RUNGS && f.max >= LMB_TILE) {
+        ladder_cost(&c, &f, rung, fixed);
+    }
+    if (ladder_choose(&c, &f, &budget, fixed)) {
+        fuzz_require(c.rung >= 0 && c.rung < LADDER_RUNGS && (c.meets == 0 || c.meets == 1));
         fuzz_require(c.bytes - fixed < UINT64_C(1) << 63);
         fuzz_require(c.settings.shadow_map % 8 == 0 && (c.settings.tree & (c.settings.tree - 1)) == 0);
         fuzz_require(f.max < 64 || (c.settings.tree <= f.max && c.settings.shadow_map <= f.max));

@@ -22,10 +22,10 @@ static void add_row(normal *n, const double *op, double seconds, double weight)
 /* Counts a run's operations, with measured numbers where the run has them. */
 static void ops_of(double op[LMB_OPS], const plan_scene *s, const plan_run *r)
 {
-    lmb_choice c;
+    ladder_choice c;
     memset(&c, 0, sizeof c);
     c.settings = r->s;
-    lmb_model_cost(&c, &lmb_model, &s->facts, r->pairs, r->segments, 0);
+    ladder_cost_of(&c, &s->facts, r->pairs, r->segments, 0);
     memcpy(op, c.op, sizeof c.op);
 }
 
@@ -75,7 +75,7 @@ static void solve(double x[LMB_OPS], const normal *n)
     }
 }
 
-static void fit_units(plan_model *m, const plan_scene *s, int count)
+static void fit_units(float units[LMB_OPS], const plan_scene *s, int count)
 {
     static normal n;
     double x[LMB_OPS];
@@ -89,22 +89,25 @@ static void fit_units(plan_model *m, const plan_scene *s, int count)
     const double unit = x[LMB_OP_PAIRS] > 0.0 ? x[LMB_OP_PAIRS] : 1e-9;
     for (int i = 0; i < LMB_OPS; ++i) {
         if (n.a[i][i] > 0.0) {
-            m->units[i] = (float)(x[i] / unit);
+            units[i] = (float)(x[i] / unit);
         }
     }
 }
 
 void plan_fit(const plan_scene *s, int count, FILE *out)
 {
-    plan_model m = lmb_model;
+    float units[LMB_OPS];
     if (count == 0) {
         return;
     }
-    fit_units(&m, s, count);
+    for (int i = 0; i < LMB_OPS; ++i) {
+        units[i] = (float)lmb_plan_units(i);
+    }
+    fit_units(units, s, count);
     fputs("/* plan_model.inc: what operations cost, in pairs gathered. Made by `make plan-model`. */\n"
           "{\n    {", out);
     for (int i = 0; i < LMB_OPS; ++i) {
-        fprintf(out, "%s%#.4gf", i > 0 ? ", " : "", (double)m.units[i] + 1e-3);
+        fprintf(out, "%s%#.4gf", i > 0 ? ", " : "", (double)units[i] + 1e-3);
     }
     fputs("},\n}\n", out);
 }

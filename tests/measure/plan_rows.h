@@ -4,14 +4,13 @@
 
 #include <stdio.h>
 
-#include "../../src/frame/plan_model.h"
 #include "../../tools/render/render_job.h"
 
 enum { PLAN_WIDTH = 240, PLAN_HEIGHT = 180, PLAN_SCENES = 16, PLAN_RUNS = 64, PLAN_TIMES = LMB_STAGE_DONE };
 
 /* One setting and the measurement of a frame. */
 typedef struct plan_run {
-    lmb_settings s;
+    ladder_settings s;
     double seconds[PLAN_TIMES]; /* processor time by stage */
     double pairs, segments; /* counted */
 } plan_run;
@@ -20,7 +19,7 @@ typedef struct plan_scene {
     char name[32];
     int fits; /* 1: the model is fitted to it */
     double shown, fixed;
-    lmb_facts facts;
+    ladder_facts facts;
     plan_run run[PLAN_RUNS];
     int runs;
 } plan_scene;

@@ -96,7 +96,7 @@ double plan_seconds(const plan_run *r)
 
 /* Setting i of the combinations of tree size and error. Returns 0 past the last, and for settings
  * that a heavy scene skips. */
-static int setting(lmb_settings *s, int i, int heavy)
+static int setting(ladder_settings *s, int i, int heavy)
 {
     static const int32_t trees[] = {64, 128, 256, 512};
     static const float errors[] = {0.01f, 0.03f, 0.1f};

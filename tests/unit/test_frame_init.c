@@ -248,7 +248,7 @@ static void test_planned_bytes(const kind *k)
     fenced block;
     fence(&block, bytes, 0);
     CHECK(lmb_frame_init(&f, &s, block.block, bytes) == LMB_OK);
-    CHECK_MSG(lmb_render_begin(&render, &f) == LMB_OK && lmb_plan_frame(&plan, &render, NULL) == LMB_OK, "%s", k->name);
+    CHECK_MSG(lmb_render_begin(&render, &f) == LMB_OK && lmb_plan_frame(&plan, &render, 0.0, 0.0) == LMB_OK, "%s", k->name);
     CHECK_MSG((double)plan.bytes > 0.98 * all && (double)plan.bytes < 1.02 * all, "%s: %.0f of %.0f bytes", k->name,
               (double)plan.bytes, all);
     unfence(&block);

@@ -319,7 +319,7 @@ static void test_planned(void)
     for (int is_live = 0; is_live < 2; ++is_live) {
         frame.gather_step = is_live ? LMB_GATHER_LIVE : 1;
         memset(&render, 0, sizeof render);
-        CHECK(lmb_render_begin(&render, &frame) == LMB_OK && lmb_plan_frame(&plan, &render, NULL) == LMB_OK);
+        CHECK(lmb_render_begin(&render, &frame) == LMB_OK && lmb_plan_frame(&plan, &render, 0.0, 0.0) == LMB_OK);
         bytes[is_live] = plan.row[LMB_PLAN_POINTS].bytes;
     }
     const uint32_t faces = frame.live->face_cap;

@@ -255,10 +255,10 @@ static void test_sky_memory(void)
     gather_live(&f);
     memset(&sky, 0, sizeof sky);
     sky.sun_cap = 9;
-    CHECK(lmb_render_begin(&render, &f) == LMB_OK && lmb_plan_frame(&plan, &render, NULL) == LMB_OK);
+    CHECK(lmb_render_begin(&render, &f) == LMB_OK && lmb_plan_frame(&plan, &render, 0.0, 0.0) == LMB_OK);
     const uint64_t before = plan.row[LMB_PLAN_POINTS].bytes;
     render.frame.live_sky = &sky;
-    CHECK(lmb_plan_frame(&plan, &render, NULL) == LMB_OK);
+    CHECK(lmb_plan_frame(&plan, &render, 0.0, 0.0) == LMB_OK);
     CHECK(plan.row[LMB_PLAN_POINTS].bytes - before == lmb_live_sky_bytes(9) + sizeof sky);
 }
 #else

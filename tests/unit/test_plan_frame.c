@@ -4,6 +4,7 @@
 #include "../world.h"
 
 enum { FRAME = 32, MAP = 16, FACES = 7, ELEMENTS = 64, BVH = 96 };
+#include "../../tools/render/ladder.h"
 #include "../bounce_frame.h"
 
 void test_plan_frame(void);
@@ -36,9 +37,10 @@ static lmb_frame set_frame(void)
     return f;
 }
 
-static void make_plan(const lmb_frame *f, const lmb_facts *facts)
+static void make_plan(const lmb_frame *f, const ladder_facts *facts)
 {
-    CHECK(lmb_render_begin(&render, f) == LMB_OK && lmb_plan_frame(&plan, &render, facts) == LMB_OK);
+    const double pairs = facts != NULL ? facts->pairs : 0.0, segments = facts != NULL ? facts->segments : 0.0;
+    CHECK(lmb_render_begin(&render, f) == LMB_OK && lmb_plan_frame(&plan, &render, pairs, segments) == LMB_OK);
 }
 
 static void finish(void)
@@ -55,7 +57,7 @@ static int why_of(lmb_plan_stage stage) { return plan.row[stage].why; }
 static lmb_survey places;
 
 /* Sampling all tiles of a small frame gives the exact pairs and segments. */
-static void look_at(lmb_facts *out, const lmb_frame *f, lmb_tile_sample *at)
+static void look_at(ladder_facts *out, const lmb_frame *f, lmb_tile_sample *at)
 {
     lmb_frame quiet = *f;
     quiet.stats = NULL;
@@ -74,7 +76,7 @@ static void look_at(lmb_facts *out, const lmb_frame *f, lmb_tile_sample *at)
 static void test_counts(void)
 {
     static lmb_tile_sample at, twice;
-    lmb_facts facts;
+    ladder_facts facts;
     const lmb_frame f = set_frame();
     look_at(&facts, &f, &at);
     make_plan(&f, &facts);
@@ -87,24 +89,24 @@ static void test_counts(void)
     CHECK_MSG(fabs(pairs / (double)stats.pairs - 1.0) < 1e-5, "%.0f of %.0f", pairs, (double)stats.pairs);
     CHECK_MSG(fabs(segments / (double)stats.segments - 1.0) < 1e-5, "%.0f of %.0f", segments, (double)stats.segments);
     CHECK(plan.row[LMB_PLAN_BVH].op[LMB_OP_BVH] == 16.0 && plan.work > 0.0 && plan.bytes > sizeof scratch);
-    CHECK(lmb_plan_frame(&plan, &render, NULL) == LMB_ERR_ARG); /* it has progressed */
+    CHECK(lmb_plan_frame(&plan, &render, 0.0, 0.0) == LMB_ERR_ARG); /* it has progressed */
     /* Errors of samples: zero against the same; a tenth of each pixel gives a tenth, or more if the light is uneven. */
     twice = at;
-    CHECK(lmb_tile_sample_error(&twice, &at, 0.0f) == 0.0f);
+    CHECK(ladder_error(&twice, &at, 0.0f) == 0.0f);
     for (int i = 0; i < at.places * LMB_TILE_PIXELS; ++i) {
         for (int c = 0; c < 3; ++c) {
             twice.light[i][c] *= at.light[i][c] > 0.0f ? 1.1f : 1.0f;
         }
     }
-    const float error = lmb_tile_sample_error(&twice, &at, 0.0f);
+    const float error = ladder_error(&twice, &at, 0.0f);
     CHECK(error > 0.08f && error < 0.2f);
     /* The bound exceeds the error, depending on the spread of places; with few places, or dark ones, there is none. */
-    CHECK(lmb_tile_sample_error(&twice, &at, 0.0f) == error && lmb_tile_sample_error(&twice, &at, 2.0f) > 1.02f * error);
+    CHECK(ladder_error(&twice, &at, 0.0f) == error && ladder_error(&twice, &at, 2.0f) > 1.02f * error);
     twice.places = 3;
-    CHECK(lmb_tile_sample_error(&twice, &at, 1.0f) < 0.0f);
+    CHECK(ladder_error(&twice, &at, 1.0f) < 0.0f);
     memset(&twice, 0, sizeof twice);
     twice.places = at.places;
-    CHECK(lmb_tile_sample_error(&at, &twice, 1.0f) < 0.0f);
+    CHECK(ladder_error(&at, &twice, 1.0f) < 0.0f);
     CHECK(lmb_render_sample(&twice, &render, &scratch, &places, 1.0) == LMB_OK && twice.places < at.places);
 }
 
@@ -112,7 +114,7 @@ static void test_counts(void)
 static void test_written_light(void)
 {
     static lmb_tile_sample at;
-    lmb_facts facts;
+    ladder_facts facts;
     const lmb_frame f = set_frame();
     for (int i = 0; i < LMB_SAMPLE_PIXELS; ++i) {
         at.light[i][0] = at.light[i][1] = at.light[i][2] = -7.0f;
@@ -148,7 +150,7 @@ static void test_known_error(void)
     memcpy(a.light[1], pixels[3][0], sizeof pixels[3][0]); /* a surface in one of them */
     memcpy(b.light[2], pixels[3][0], sizeof pixels[3][0]);
     /* Each of four pixels differs by 0.5 in one channel; the twelve channels have a mean of 10.5 / 12. */
-    const double want = sqrt(1.0 / 12.0) / (10.5 / 12.0), error = (double)lmb_tile_sample_error(&a, &b, 0.0f);
+    const double want = sqrt(1.0 / 12.0) / (10.5 / 12.0), error = (double)ladder_error(&a, &b, 0.0f);
     CHECK_MSG(fabs(error - want) < 1e-5, "%g, not %g", error, want);
 }
 
@@ -162,7 +164,7 @@ static void test_rows(void)
     world.material[0].roughness = 0.5f;
     world.material[0].emission[0] = 1.0f;
     memset(&render, 0, sizeof render);
-    CHECK(lmb_render_reuse(&render, &f) == LMB_OK && lmb_plan_frame(&plan, &render, NULL) == LMB_OK);
+    CHECK(lmb_render_reuse(&render, &f) == LMB_OK && lmb_plan_frame(&plan, &render, 0.0, 0.0) == LMB_OK);
     const lmb_plan_row *bounces = &plan.row[LMB_PLAN_BOUNCES];
     CHECK(bounces->why == LMB_WHY_RUNS && bounces->op[LMB_OP_ELEMENTS] == 16.0);
     CHECK(bounces->op[LMB_OP_CUTS] == 3.0 * ELEMENTS / LMB_TILE_PIXELS && bounces->work > 0.0);
@@ -170,7 +172,7 @@ static void test_rows(void)
     CHECK(plan.row[LMB_PLAN_LOBES].op[LMB_OP_LOBES] == FRAME * FRAME);
     CHECK(plan.row[LMB_PLAN_EMISSION].op[LMB_OP_STORED] == FRAME * FRAME);
     finish();
-    CHECK(lmb_render_reuse(&render, &f) == LMB_OK && lmb_plan_frame(&plan, &render, NULL) == LMB_OK);
+    CHECK(lmb_render_reuse(&render, &f) == LMB_OK && lmb_plan_frame(&plan, &render, 0.0, 0.0) == LMB_OK);
     CHECK(bounces->why == LMB_WHY_REUSED && bounces->work == 0.0 && bounces->bytes == lmb_elements_bytes(ELEMENTS));
     memset(lights[0].intensity, 0, sizeof lights[0].intensity);
     memset(lights[1].intensity, 0, sizeof lights[1].intensity);
@@ -229,7 +231,7 @@ static void test_surveys(void)
     f.eye = target_of(LMB_DEPTH32F, LARGE, large_depth, large_id);
     CHECK(lmb_surface_init(&f.out, LMB_RGB32F, LARGE, LARGE, large_picture, sizeof large_picture) == LMB_OK);
     CHECK(lmb_render_frame(&render, &f) == LMB_OK);
-    CHECK(lmb_survey_even(&places, &render, LMB_SAMPLE_TILES) == LMB_OK);
+    ladder_places(&places, &f.view, LMB_SAMPLE_TILES);
     CHECK(places.count == LMB_SAMPLE_TILES);
     check_spread();
     CHECK(lmb_render_sample(&at, &render, &scratch, &places, 0.0) == LMB_OK);
@@ -241,10 +243,6 @@ static void test_surveys(void)
     CHECK(lmb_render_sample(&at, &render, &scratch, NULL, 0.0) == LMB_ERR_ARG);
     render.frame.gather_step = LMB_GATHER_LIVE; /* depends on the whole frame */
     CHECK(lmb_render_sample(&at, &render, &scratch, &places, 0.0) == LMB_ERR_ARG);
-    CHECK(lmb_survey_even(NULL, &render, LMB_SAMPLE_TILES) == LMB_ERR_ARG);
-    CHECK(lmb_survey_even(&places, NULL, LMB_SAMPLE_TILES) == LMB_ERR_ARG);
-    CHECK(lmb_survey_even(&places, &render, LMB_SAMPLE_TILES + 1) == LMB_ERR_ARG);
-    CHECK(lmb_survey_even(&places, &render, 0) == LMB_ERR_ARG);
 }
 
 /* --- reasons ------------------------------------------------------------------------------------------------------ */
@@ -298,7 +296,7 @@ static void test_kept(void)
     memset(&render, 0, sizeof render);
     CHECK(lmb_render_reuse(&render, &f) == LMB_OK);
     finish();
-    CHECK(lmb_render_reuse(&render, &f) == LMB_OK && lmb_plan_frame(&plan, &render, NULL) == LMB_OK);
+    CHECK(lmb_render_reuse(&render, &f) == LMB_OK && lmb_plan_frame(&plan, &render, 0.0, 0.0) == LMB_OK);
     CHECK(why_of(LMB_PLAN_MAPS) == LMB_WHY_REUSED && why_of(LMB_PLAN_POINTS) == LMB_WHY_REUSED);
     CHECK(why_of(LMB_PLAN_BVH) == LMB_WHY_REUSED && why_of(LMB_PLAN_VIEW) == LMB_WHY_REUSED);
     CHECK(why_of(LMB_PLAN_GATHER) == LMB_WHY_RUNS && plan.row[LMB_PLAN_MAPS].work == 0.0);
@@ -364,57 +362,57 @@ static void test_dim(void)
 /* --- budgets ------------------------------------------------------------------------------------------------------ */
 
 /* Errors fall to a third per rung; the finest was not checked. */
-static lmb_facts some_facts(void)
+static ladder_facts some_facts(void)
 {
-    lmb_facts f;
+    ladder_facts f;
     memset(&f, 0, sizeof f);
     f.triangles = 1000.0;
     f.faces = f.lights = f.bounces = 1.0;
     f.tiles = 4800.0;
     f.wanted_map = 512;
     f.max = 1024;
-    for (int i = 0; i < LMB_PLAN_RUNGS; ++i) {
+    for (int i = 0; i < LADDER_RUNGS; ++i) {
         f.rung[i].places = 80;
         f.rung[i].pairs = f.rung[i].segments = 1000.0f * (float)(1 << i);
         f.rung[i].error = i > 0 ? f.rung[i - 1].error / 3.0f : 0.81f;
     }
-    f.rung[LMB_PLAN_RUNGS - 1].error = f.rung[LMB_PLAN_RUNGS - 2].error = -1.0f;
+    f.rung[LADDER_RUNGS - 1].error = f.rung[LADDER_RUNGS - 2].error = -1.0f;
     return f;
 }
 
 static void test_budgets(void)
 {
-    lmb_facts facts = some_facts();
-    lmb_choice c;
-    for (int i = 0; i < LMB_PLAN_RUNGS - 2; ++i) {
-        const lmb_budget errors = {0.0, 1.01f * facts.rung[i].error, 0};
-        CHECK(lmb_plan_choose(&c, &facts, &errors, 0) == LMB_OK);
+    ladder_facts facts = some_facts();
+    ladder_choice c;
+    for (int i = 0; i < LADDER_RUNGS - 2; ++i) {
+        const ladder_budget errors = {0.0, 1.01f * facts.rung[i].error, 0};
+        CHECK(ladder_choose(&c, &facts, &errors, 0));
         CHECK_MSG(c.meets && c.rung == i && c.error <= errors.error, "%g: %d", (double)errors.error, (int)c.rung);
-        const lmb_budget work = {c.work, 0.0f, 0}, both = {0.5 * c.work, errors.error, 0};
-        CHECK(lmb_plan_choose(&c, &facts, &work, 0) == LMB_OK && c.meets && c.rung == i);
-        CHECK(lmb_plan_choose(&c, &facts, &both, 0) == LMB_OK && !c.meets && (i == 0 || c.rung < i));
+        const ladder_budget work = {c.work, 0.0f, 0}, both = {0.5 * c.work, errors.error, 0};
+        CHECK(ladder_choose(&c, &facts, &work, 0) && c.meets && c.rung == i);
+        CHECK(ladder_choose(&c, &facts, &both, 0) && !c.meets && (i == 0 || c.rung < i));
     }
     /* An unchecked rung is chosen only if no other is left, and does not meet the budget. */
-    const lmb_budget fine = {0.0, 0.001f, 0}, few = {0.0, 0.0f, 1u << 20}, none = {1.0, 0.0f, 0};
-    CHECK(lmb_plan_choose(&c, &facts, &fine, 0) == LMB_OK && !c.meets && c.rung == LMB_PLAN_RUNGS - 2 &&
+    const ladder_budget fine = {0.0, 0.001f, 0}, few = {0.0, 0.0f, 1u << 20}, none = {1.0, 0.0f, 0};
+    CHECK(ladder_choose(&c, &facts, &fine, 0) && !c.meets && c.rung == LADDER_RUNGS - 2 &&
           c.error < 0.0f);
-    CHECK(lmb_plan_choose(&c, &facts, &few, 0) == LMB_OK && c.meets && c.bytes <= few.bytes);
-    CHECK(lmb_plan_choose(&c, &facts, &few, 2u << 20) == LMB_OK && !c.meets && c.bytes > 2u << 20);
-    CHECK(lmb_plan_choose(&c, &facts, &none, 0) == LMB_OK && !c.meets && c.rung == 0 && c.work > 1.0);
+    CHECK(ladder_choose(&c, &facts, &few, 0) && c.meets && c.bytes <= few.bytes);
+    CHECK(ladder_choose(&c, &facts, &few, 2u << 20) && !c.meets && c.bytes > 2u << 20);
+    CHECK(ladder_choose(&c, &facts, &none, 0) && !c.meets && c.rung == 0 && c.work > 1.0);
     facts.rung[4].places = 0; /* counts as more than the rung before */
-    lmb_choice before;
-    lmb_plan_cost(&before, &facts, 3, 0);
-    lmb_plan_cost(&c, &facts, 4, 0);
+    ladder_choice before;
+    ladder_cost(&before, &facts, 3, 0);
+    ladder_cost(&c, &facts, 4, 0);
     CHECK(c.op[LMB_OP_PAIRS] > 1.5 * before.op[LMB_OP_PAIRS] && c.op[LMB_OP_PAIRS] < 3.0 * before.op[LMB_OP_PAIRS]);
     facts.max = 64;
-    lmb_plan_rung(&c.settings, &facts, LMB_PLAN_RUNGS - 1);
+    ladder_at(&c.settings, &facts, LADDER_RUNGS - 1);
     CHECK(c.settings.tree == 64 && c.settings.shadow_map == 64);
     facts.max = LMB_TILE;
-    CHECK(lmb_plan_choose(&c, &facts, &none, 0) == LMB_OK);
+    CHECK(ladder_choose(&c, &facts, &none, 0));
     facts.max = LMB_TILE - 1;
-    CHECK(lmb_plan_choose(&c, &facts, &none, 0) == LMB_ERR_ARG);
+    CHECK(!ladder_choose(&c, &facts, &none, 0));
     facts.max = 0;
-    CHECK(lmb_plan_choose(&c, &facts, &none, 0) == LMB_ERR_ARG && lmb_plan_choose(NULL, &facts, &none, 0) < 0);
+    CHECK(!ladder_choose(&c, &facts, &none, 0));
 }
 
 void test_plan_frame(void)

@@ -1476,7 +1476,7 @@ static void plans_places(const lmb_transfer *t)
     uint64_t bytes[2];
     for (int i = 0; i < 2; ++i) {
         render.frame.transfer_light.place = i == 0 ? kept : NULL;
-        CHECK(lmb_plan_frame(&plan, &render, NULL) == LMB_OK);
+        CHECK(lmb_plan_frame(&plan, &render, 0.0, 0.0) == LMB_OK);
         bytes[i] = plan.row[LMB_PLAN_POINTS].bytes;
     }
     render.frame.transfer_light.place = kept;

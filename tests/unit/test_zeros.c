@@ -5,6 +5,7 @@
 #include <lambent/lambent.h>
 
 #include "../../tools/demo/demo_scene.h"
+#include "../../tools/render/ladder.h"
 #include "../small_pack.h"
 #include "../small_transfer.h"
 #include "../sphere_relief.h"
@@ -119,7 +120,6 @@ static struct {
     lmb_element_scratch receiver;
     lmb_relight relight;
     lmb_occluder occluder;
-    lmb_facts facts;
     lmb_hull hull;
     lmb_frame_settings settings;
     lmb_transfer transfer;
@@ -205,7 +205,7 @@ static void make_frame(void)
     }
     CHECK(lmb_discs_join(&g.render.frame.points, &g.render.maps[0], &zones) == LMB_OK);
     CHECK(lmb_group_points(&g.groups, &g.render.frame.points, &zones, NULL) == LMB_OK);
-    CHECK(lmb_survey_even(&g.survey, &g.render, 4) == LMB_OK);
+    ladder_places(&g.survey, &g.render.frame.view, 4);
     CHECK(lmb_render_sample(&g.query, &g.render, &g.scratch, &g.survey, 0.0) == LMB_OK);
     CHECK(lmb_surface_init(&g.metres, LMB_R32F, WIDE, HIGH, room(WIDE * HIGH * 4), WIDE * HIGH * 4) == LMB_OK);
     CHECK(lmb_bins_build(&g.bins, picked_kernels(), &g.render.frame.view, demo_scene(), 1, 100, 0, NULL, NULL) == LMB_OK);
@@ -341,19 +341,6 @@ static void make_fixed(void)
     f->depth = room(WIDE * HIGH * sizeof *f->depth);
 }
 
-static void make_facts(void)
-{
-    lmb_facts *f = &g.facts;
-    f->triangles = f->faces = f->tiles = f->lights = f->bounces = 10.0;
-    f->pairs = f->segments = 1e5;
-    f->wanted_map = f->max = SIDE;
-    for (int i = 0; i < LMB_PLAN_RUNGS; ++i) {
-        f->rung[i].places = 10;
-        f->rung[i].pairs = f->rung[i].segments = 100.0f * (float)(1 + i);
-        f->rung[i].error = 0.1f / (float)(1 + i);
-    }
-}
-
 static const stage *relief;
 
 typedef struct known {
@@ -407,7 +394,6 @@ static const void *good_one(const argument *a, size_t *bytes)
     static lmb_world_query world_query;
     static lmb_voxel_part part;
     static lmb_cone_trace trace;
-    static const lmb_budget budget = {1e9, 0.1f, 0};
     many_lights_query.many_lights = &g.many_lights;
     world_query.world = &g.world;
     part.scene = demo_scene();
@@ -419,7 +405,6 @@ static const void *good_one(const argument *a, size_t *bytes)
         {"lmb_axes", &straight, sizeof straight},
         {"lmb_bins", &g.bins, sizeof g.bins},
         {"lmb_bvh", &f->bvh, sizeof f->bvh},
-        {"lmb_budget", &budget, sizeof budget},
         {"lmb_cloud", &g.cloud, sizeof g.cloud},
         {"lmb_cone_trace", &trace, sizeof trace},
         {"lmb_cone_width", g.cones.width, sizeof *g.cones.width},
@@ -427,7 +412,6 @@ static const void *good_one(const argument *a, size_t *bytes)
         {"lmb_cut_params", &g.cut_params, sizeof g.cut_params},
         {"lmb_elements", &f->elements, sizeof f->elements},
         {"lmb_env", &g.env, sizeof g.env},
-        {"lmb_facts", &g.facts, sizeof g.facts},
         {"lmb_frame", f, sizeof *f},
         {"lmb_frame_settings", &g.settings, sizeof g.settings},
         {"lmb_groups", &g.groups, sizeof g.groups},
@@ -680,7 +664,6 @@ void test_zeros(void)
     make_photo();
     make_voxels();
     make_probe();
-    make_facts();
     make_transfer();
     make_pack();
     make_fixed();

@@ -7,10 +7,7 @@
 
 static const char *proof_word(const lmb_plan_row *row)
 {
-    return row->proof == LMB_PROOF_RUNS    ? "runs"
-           : row->proof == LMB_PROOF_EXACT ? "exact"
-           : row->proof == LMB_PROOF_BOUND ? "bound"
-                                           : "estimate";
+    return row->proof == LMB_PROOF_RUNS ? "runs" : row->proof == LMB_PROOF_EXACT ? "exact" : "bound";
 }
 
 /* A count in four digits: 950, 12.3k, 4.56M. */

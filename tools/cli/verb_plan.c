@@ -18,7 +18,7 @@ static int plan(render_job *j, report *r)
     }
     lmb_status status = lmb_render_begin(j->render, &j->frame);
     if (status == LMB_OK) {
-        status = lmb_plan_frame(&p, j->render, choice.facts.max > 0 ? &choice.facts : NULL);
+        status = lmb_plan_frame(&p, j->render, choice.facts.pairs, choice.facts.segments);
     }
     if (status != LMB_OK) {
         return report_fail(r, "%s: cannot be planned: %s", j->o.scene, lmb_status_name(status));

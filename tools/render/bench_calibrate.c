@@ -27,7 +27,7 @@ static double run(render_job *j)
     double seconds = 0.0;
     j->lit = 0;
     memset(&j->stats, 0, sizeof j->stats);
-    if (lmb_render_begin(j->render, &j->frame) != LMB_OK || lmb_plan_frame(&plan, j->render, NULL) != LMB_OK ||
+    if (lmb_render_begin(j->render, &j->frame) != LMB_OK || lmb_plan_frame(&plan, j->render, 0.0, 0.0) != LMB_OK ||
         !render_draw(j, &r)) {
         return 0.0;
     }

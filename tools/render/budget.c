@@ -20,8 +20,8 @@ static uint64_t fixed_bytes(const render_job *j)
 
 void budget_words(char *out, size_t size, const budget_choice *c)
 {
-    const lmb_budget *b = &c->budget;
-    const lmb_choice *a = &c->chosen;
+    const ladder_budget *b = &c->budget;
+    const ladder_choice *a = &c->chosen;
     static const char none[] = "no setting meets the budget; the nearest takes ";
     static const char unchecked[] = "no setting is known to meet the budget: to check the nearest would cost over a "
                                     "fifth of the picture";
@@ -49,7 +49,7 @@ void budget_words(char *out, size_t size, const budget_choice *c)
 /* `all`: bytes of the whole job. */
 static void tell(const budget_choice *c, size_t all, int is_quiet)
 {
-    const lmb_settings *s = &c->chosen.settings;
+    const ladder_settings *s = &c->chosen.settings;
     char words[200], error[32] = "not checked";
     budget_words(words, sizeof words, c);
     if (c->chosen.error >= 0.0f) {
@@ -70,7 +70,7 @@ static void tell(const budget_choice *c, size_t all, int is_quiet)
 /* Applies the chosen settings. If tree and maps are those of the last sample, that light is reused. */
 static int take_choice(budget_choice *c, render_job *j, report *r)
 {
-    const lmb_settings *s = &c->chosen.settings;
+    const ladder_settings *s = &c->chosen.settings;
     render_job_apply(j, s);
     if (!c->look.solved || j->frame.tree.size != s->tree || j->frame.shadow_map != s->shadow_map) {
         return render_job_refit(j, r);
@@ -101,14 +101,14 @@ int budget_fit(budget_choice *out, render_job *j, report *r)
     if (out->facts.max == 0) {
         return report_fail(r, "%s: --budget: no light bounces here that settings could be chosen for", j->o.scene);
     }
-    if (lmb_plan_choose(&out->chosen, &out->facts, &out->budget, fixed) != LMB_OK) {
+    if (!ladder_choose(&out->chosen, &out->facts, &out->budget, fixed)) {
         return report_fail(r, "%s: --budget: nothing to choose from", j->o.scene);
     }
     if (!take_choice(out, j, r)) {
         return 0;
     }
-    lmb_choice c;
-    lmb_plan_cost(&c, &out->facts, out->chosen.rung, fixed);
+    ladder_choice c;
+    ladder_cost(&c, &out->facts, out->chosen.rung, fixed);
     out->facts.pairs = c.op[LMB_OP_PAIRS];
     out->facts.segments = c.op[LMB_OP_SEGMENTS];
     tell(out, j->bytes + j->many_lights.bytes, j->o.view.is_quiet);

@@ -7,9 +7,9 @@
 
 /* Measured facts and the settings chosen. */
 typedef struct budget_choice {
-    lmb_facts facts;
-    lmb_budget budget; /* from the options, with milliseconds converted to work */
-    lmb_choice chosen;
+    ladder_facts facts;
+    ladder_budget budget; /* from the options, with milliseconds converted to work */
+    ladder_choice chosen;
     look_cost look;
     double rate;       /* units per second with the job's threads; 0: not needed */
 } budget_choice;

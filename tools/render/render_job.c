@@ -568,7 +568,7 @@ int render_job_set(render_job *j, report *r)
     return render_job_take(j, r);
 }
 
-void render_job_apply(render_job *j, const lmb_settings *s)
+void render_job_apply(render_job *j, const ladder_settings *s)
 {
     j->o.shadow_map = s->shadow_map;
     j->o.tree = s->tree;

@@ -73,6 +73,6 @@ int render_job_picture(render_job *j, image *out, report *r);
 void render_job_eye(const render_job *j, lmb_frame *f, const image *whole, int32_t eye);
 
 /* render_job_apply: copies chosen settings into the options of a job. */
-void render_job_apply(render_job *j, const lmb_settings *s);
+void render_job_apply(render_job *j, const ladder_settings *s);
 
 #endif

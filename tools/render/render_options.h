@@ -8,6 +8,7 @@
 #include "../common/slice.h"
 #include "../common/view_options.h"
 #include "../model/model.h"
+#include "ladder.h"
 
 #define RENDER_LIGHTS 64 /* most --light options */
 
@@ -18,7 +19,7 @@ enum { SHOW_OCCLUSION = 48 };
 
 static inline int shows_attribute(int32_t show) { return show >= SHOW_DEPTH && show <= SHOW_EYE_DISTANCE; }
 /* Returns whether settings are chosen for a budget. */
-static inline int has_budget(const lmb_budget *b, float ms)
+static inline int has_budget(const ladder_budget *b, float ms)
 {
     return b->work > 0.0 || b->error > 0.0f || b->bytes > 0 || ms > 0.0f;
 }
@@ -69,7 +70,7 @@ typedef struct render_options {
     int32_t tone; /* PICTURE_ */
     const lmb_kernels *kernels;
     int32_t threads; /* 0: one per processor */
-    lmb_budget budget; /* zeros: none */
+    ladder_budget budget; /* zeros: none */
     float budget_ms;   /* 0: none */
     float rate;        /* units of work per second; 0: measured if needed */
     int json;          /* of `plan` */

@@ -16,9 +16,9 @@ enum { MAP_TEXELS = 2 << 20 /* over all shadow maps */ };
 
 typedef struct looker {
     render_job *job;
-    const lmb_budget *budget;
+    const ladder_budget *budget;
     uint64_t fixed;
-    lmb_facts *facts;
+    ladder_facts *facts;
     look_cost *cost;
     lmb_tile_sample *sample[2]; /* of the rung before, and of this one */
     lmb_survey places;
@@ -31,32 +31,32 @@ static float deviations(int32_t places) { return 1.0f + 4.0f / (float)places; }
 
 /* Error of a rung over the difference from the next, an upper bound for nearly all measured scenes
  * (src/DECISIONS.md). The last two have trees of one size. */
-static const float off_over_next[LMB_PLAN_RUNGS - 1] = {2.0f, 2.0f, 2.0f, 2.0f, 1.5f, 2.5f, 3.5f};
+static const float off_over_next[LADDER_RUNGS - 1] = {2.0f, 2.0f, 2.0f, 2.0f, 1.5f, 2.5f, 3.5f};
 
 static double unit(lmb_op op) { return lmb_plan_units((int32_t)op); }
 
 /* Work of the maps, tree and view of a rung. */
 static double light_work(const looker *l, int32_t rung)
 {
-    lmb_facts f = *l->facts;
-    lmb_choice c;
+    ladder_facts f = *l->facts;
+    ladder_choice c;
     f.tiles = 0.0;
-    lmb_plan_cost(&c, &f, rung, 0);
+    ladder_cost(&c, &f, rung, 0);
     return c.work;
 }
 
 static double rung_work(const looker *l, int32_t rung)
 {
-    lmb_choice c;
-    lmb_plan_cost(&c, l->facts, rung, l->fixed);
+    ladder_choice c;
+    ladder_cost(&c, l->facts, rung, l->fixed);
     return c.work;
 }
 
 static int has_same_light(const looker *l, int32_t a, int32_t b)
 {
-    lmb_settings x, y;
-    lmb_plan_rung(&x, l->facts, a);
-    lmb_plan_rung(&y, l->facts, b);
+    ladder_settings x, y;
+    ladder_at(&x, l->facts, a);
+    ladder_at(&y, l->facts, b);
     return x.tree == y.tree && x.shadow_map == y.shadow_map;
 }
 
@@ -86,8 +86,8 @@ static lmb_frame frame_of(const render_job *j)
 static lmb_status solve_rung(looker *l, int32_t rung)
 {
     render_job *j = l->job;
-    lmb_settings s;
-    lmb_plan_rung(&s, l->facts, rung);
+    ladder_settings s;
+    ladder_at(&s, l->facts, rung);
     render_job_apply(j, &s);
     if (l->rung >= 0 && has_same_light(l, l->rung, rung)) {
         j->frame.error = j->render->frame.error = s.error;
@@ -104,15 +104,15 @@ static lmb_status solve_rung(looker *l, int32_t rung)
     return solve(j, frame_of(j), NULL);
 }
 
-static lmb_status survey(looker *l, int32_t wanted)
+static void survey(looker *l, int32_t wanted)
 {
-    return lmb_survey_even(&l->places, l->job->render, wanted < LMB_SAMPLE_TILES ? wanted : LMB_SAMPLE_TILES);
+    ladder_places(&l->places, &l->job->frame.view, wanted < LMB_SAMPLE_TILES ? wanted : LMB_SAMPLE_TILES);
 }
 
 /* Samples a rung with up to `max` units of work. */
 static lmb_status look_at(looker *l, lmb_tile_sample *out, int32_t rung, double max)
 {
-    lmb_rung *at = &l->facts->rung[rung];
+    ladder_rung *at = &l->facts->rung[rung];
     const lmb_status status = lmb_render_sample(out, l->job->render, l->job->frame.scratch, &l->places, max);
     if (status == LMB_OK) {
         at->places = out->places;
@@ -135,7 +135,7 @@ static double left_for(const looker *l, int32_t rung, int32_t next)
 /* Returns whether the work left pays for enough places on the next rung. */
 static int affords(const looker *l, int32_t rung, double left)
 {
-    const lmb_rung *at = &l->facts->rung[rung];
+    const ladder_rung *at = &l->facts->rung[rung];
     const double place = (double)at->pairs * unit(LMB_OP_PAIRS) + (double)at->segments * unit(LMB_OP_SEGMENTS);
     return left > GROWTH * MIN * place && left > 0.0;
 }
@@ -143,12 +143,12 @@ static int affords(const looker *l, int32_t rung, double left)
 /* Returns whether the traversal ends here, because finer rungs are not needed or exceed the budget. */
 static int is_last(const looker *l, int32_t rung)
 {
-    const lmb_budget *b = l->budget;
-    lmb_choice c;
+    const ladder_budget *b = l->budget;
+    ladder_choice c;
     if (rung < 0) {
         return 0;
     }
-    lmb_plan_cost(&c, l->facts, rung, l->fixed);
+    ladder_cost(&c, l->facts, rung, l->fixed);
     return (b->error > 0.0f && c.error >= 0.0f && c.error <= b->error) || (b->work > 0.0 && c.work > b->work) ||
            (b->bytes > 0 && c.bytes > b->bytes);
 }
@@ -160,23 +160,23 @@ static lmb_status traversal(looker *l)
     const int32_t first = l->budget->work > 0.0 || l->budget->bytes > 0 ? 0 : DRAFT;
     lmb_status status = solve_rung(l, first);
     const int32_t wanted = FINE * ((int32_t)(l->facts->tiles / PART) + 1);
-    status = status != LMB_OK ? status : survey(l, wanted);
+    survey(l, wanted);
     const int32_t all = l->places.count;
     l->places.count = (all + FINE - 1) / FINE;
     status = status != LMB_OK ? status : look_at(l, l->sample[0], first, 0.0);
     int32_t before = first;
-    for (int32_t i = first + 1; i < LMB_PLAN_RUNGS && status == LMB_OK && !is_last(l, i - 1) && !is_last(l, i - 2);
+    for (int32_t i = first + 1; i < LADDER_RUNGS && status == LMB_OK && !is_last(l, i - 1) && !is_last(l, i - 2);
          ++i) {
         const double checks = left_for(l, i - 1, i), goes_on = left_for(l, i, i);
         const int can_check = before == i - 1 && affords(l, before, checks);
-        if (!can_check && (i == LMB_PLAN_RUNGS - 1 || !affords(l, before, goes_on))) {
+        if (!can_check && (i == LADDER_RUNGS - 1 || !affords(l, before, goes_on))) {
             continue;
         }
         l->places.count = i > first + 1 ? all : l->places.count;
         status = solve_rung(l, i);
         status = status != LMB_OK ? status : look_at(l, l->sample[1], i, can_check ? checks : goes_on * FOR_ITSELF);
         if (status == LMB_OK && can_check) {
-            const float bound = lmb_tile_sample_error(l->sample[0], l->sample[1], deviations(l->sample[1]->places));
+            const float bound = ladder_error(l->sample[0], l->sample[1], deviations(l->sample[1]->places));
             l->facts->rung[i - 1].error = bound * off_over_next[i - 1];
         }
         lmb_tile_sample *other = l->sample[0];
@@ -202,7 +202,7 @@ static lmb_status take_own(looker *l)
         l->facts->segments = (double)counts.segments;
         return status;
     }
-    status = status != LMB_OK ? status : survey(l, (int32_t)(l->facts->tiles / OWN_PART) + 1);
+    survey(l, (int32_t)(l->facts->tiles / OWN_PART) + 1);
     status = status != LMB_OK ? status : lmb_render_sample(l->sample[0], j->render, f.scratch, &l->places, 0.0);
     if (status == LMB_OK) {
         const double each = l->facts->tiles / (double)l->sample[0]->places;
@@ -213,7 +213,7 @@ static lmb_status take_own(looker *l)
 }
 
 /* Sets the facts that need no samples. */
-static int set_counts(lmb_facts *out, const render_job *j)
+static int set_counts(ladder_facts *out, const render_job *j)
 {
     const lmb_frame *f = &j->frame;
     const lmb_view *v = &f->view;
@@ -238,13 +238,13 @@ static int set_counts(lmb_facts *out, const render_job *j)
     }
     for (out->max = 1024; out->max > 64 && (double)out->max * out->max * f->tree.face_cap > MAP_TEXELS; out->max /= 2) {
     }
-    for (int i = 0; i < LMB_PLAN_RUNGS; ++i) {
+    for (int i = 0; i < LADDER_RUNGS; ++i) {
         out->rung[i].error = -1.0f;
     }
     return 1;
 }
 
-int scene_sample(lmb_facts *out, look_cost *cost, render_job *j, const lmb_budget *budget, uint64_t fixed, report *r)
+int scene_sample(ladder_facts *out, look_cost *cost, render_job *j, const ladder_budget *budget, uint64_t fixed, report *r)
 {
     const double start = host_seconds();
     looker l;
