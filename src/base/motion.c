@@ -229,7 +229,8 @@ static int node_to_world(lmb_mat4 *out, const lmb_pack *p, uint32_t node, float 
 
 /* --- instances, lights, cameras ----------------------------------------------------------------------------------- */
 
-uint32_t lmb_pack_node_of(const lmb_pack *p, int kind, uint32_t i)
+/* The node that moves instance, light or camera i of a kind; LMB_PACK_NONE if there is none. */
+static uint32_t moving_node_of(const lmb_pack *p, int kind, uint32_t i)
 {
     const int word = kind == LMB_PACK_INSTANCES ? PACK_INSTANCE_NODE
                      : kind == LMB_PACK_LIGHTS  ? PACK_LIGHT_NODE
@@ -247,7 +248,7 @@ lmb_status lmb_pack_place_instance(lmb_instance *inout, const lmb_pack *p, uint3
     if (inout == NULL || !has_record(p, LMB_PACK_INSTANCES, i)) {
         return LMB_ERR_ARG;
     }
-    const uint32_t node = lmb_pack_node_of(p, LMB_PACK_INSTANCES, i);
+    const uint32_t node = moving_node_of(p, LMB_PACK_INSTANCES, i);
     lmb_mat4 to_world;
     if (node != LMB_PACK_NONE) {
         if (!node_to_world(&to_world, p, node, time_s, 0)) {
@@ -265,7 +266,7 @@ lmb_status lmb_pack_place_light(lmb_light *inout, const lmb_pack *p, uint32_t i,
     if (inout == NULL || !has_record(p, LMB_PACK_LIGHTS, i)) {
         return LMB_ERR_ARG;
     }
-    const uint32_t node = lmb_pack_node_of(p, LMB_PACK_LIGHTS, i);
+    const uint32_t node = moving_node_of(p, LMB_PACK_LIGHTS, i);
     lmb_mat4 world, turn;
     if (node == LMB_PACK_NONE) {
         return LMB_OK;
@@ -301,7 +302,7 @@ static int axes_of(lmb_vec3 *right, lmb_vec3 *up, lmb_vec3 *back, const lmb_mat4
 /* Back points along the node's Z, and up as close to Y as possible; scale and mirroring are dropped. */
 int lmb_pack_place_camera(lmb_view *inout, const lmb_pack *p, uint32_t i, float time_s)
 {
-    const uint32_t node = lmb_pack_node_of(p, LMB_PACK_CAMERAS, i);
+    const uint32_t node = moving_node_of(p, LMB_PACK_CAMERAS, i);
     lmb_mat4 world, turn;
     lmb_vec3 right, up, back;
     if (node == LMB_PACK_NONE) {

@@ -4,9 +4,6 @@
 
 #include <lambent/pack.h>
 
-/* The node that moves instance, light or camera i of a kind; LMB_PACK_NONE if there is none. */
-uint32_t lmb_pack_node_of(const lmb_pack *pack, int kind, uint32_t i);
-
 /* Moves a camera that has such a node; any other stays unchanged. Returns 0 if the node has no valid transform. */
 int lmb_pack_place_camera(lmb_view *inout, const lmb_pack *pack, uint32_t i, float time_s);
 

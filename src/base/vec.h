@@ -131,6 +131,16 @@ static inline int is_mirrored(const lmb_mat4 *t)
     return dot3(cross3(vec3(m[0], m[1], m[2]), vec3(m[4], m[5], m[6])), vec3(m[8], m[9], m[10])) < 0.0f;
 }
 
+/* 0 .. 5: dominant axis and sign of a vector. */
+static inline uint32_t side_of3(lmb_vec3 v)
+{
+    const float x = absf(v.x), y = absf(v.y), z = absf(v.z);
+    if (x >= y && x >= z) {
+        return v.x < 0.0f;
+    }
+    return y >= z ? 2u + (v.y < 0.0f) : 4u + (v.z < 0.0f);
+}
+
 /* Direction from a position towards the viewer, of any length. */
 static inline lmb_vec3 view_to_eye(const lmb_view *v, lmb_vec3 at)
 {

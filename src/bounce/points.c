@@ -84,8 +84,8 @@ static void add_lit_texel(element *e, const lmb_tile *t, int k, const float powe
 {
     float weight = power[0] + power[1] + power[2];
     e->position =
-        add3(e->position, mul3(sub3(vec3(t->position[0][k], t->position[1][k], t->position[2][k]), e->first), weight));
-    e->normal = add3(e->normal, mul3(vec3(t->face[0][k], t->face[1][k], t->face[2][k]), weight));
+        add3(e->position, mul3(sub3(tile_vec(t->position, k), e->first), weight));
+    e->normal = add3(e->normal, mul3(tile_vec(t->face, k), weight));
     for (int c = 0; c < 3; ++c) {
         e->power[c] += power[c];
         e->flux[c] += power[c] * t->albedo[c][k];
@@ -162,11 +162,11 @@ static lmb_status collect_block(const point_collector *c, const lmb_tile *tile, 
             if (tile->id[k] == 0) {
                 continue;
             }
-            const lmb_vec3 p = vec3(tile->position[0][k], tile->position[1][k], tile->position[2][k]);
+            const lmb_vec3 p = tile_vec(tile->position, k);
             lmb_light_texel_power(power, c->light, c->map, c->face, tile->x + bx + x, tile->y + by + y);
             light_end_power(power, c->light, p);
             if (power[0] + power[1] + power[2] > 0.0f) {
-                lmb_vec3 n = vec3(tile->face[0][k], tile->face[1][k], tile->face[2][k]);
+                lmb_vec3 n = tile_vec(tile->face, k);
                 float texel_m = texel * (v->kind == LMB_PERSPECTIVE ? tile->depth[k] : 1.0f);
                 element *own = find_element(e, &count, p, n, texel_m);
                 add_lit_texel(own, tile, k, power, (float)x - middle, (float)y - middle);

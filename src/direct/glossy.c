@@ -40,9 +40,7 @@ static void set_lobe_pixel(lmb_glossy *out, int k, float roughness, lmb_vec3 nor
 {
     const float alpha = maxf(roughness * roughness, LMB_MIN_ALPHA);
     out->alpha2[k] = alpha * alpha;
-    out->towards[0][k] = towards.x;
-    out->towards[1][k] = towards.y;
-    out->towards[2][k] = towards.z;
+    tile_set_vec(out->towards, k, towards);
     out->facing[k] = maxf(dot3(normal, towards), LOBE_MIN);
     out->pixels |= (uint64_t)1 << k;
 }

@@ -33,24 +33,12 @@ typedef struct lit_place {
     lmb_vec3 towards; /* from the receiver to the light; directional: unit length */
 } lit_place;
 
-static int32_t choose_shadow_face(const lmb_shadow_map *map, lmb_vec3 d)
-{
-    lmb_vec3 a = vec3(absf(d.x), absf(d.y), absf(d.z));
-    if (map->faces == 1) {
-        return 0;
-    }
-    if (a.x >= a.y && a.x >= a.z) {
-        return d.x < 0.0f;
-    }
-    return a.y >= a.z ? 2 + (d.y < 0.0f) : 4 + (d.z < 0.0f);
-}
-
 /* Returns 0 if the receiver is outside the map: nothing can shadow it there (spots: it is outside the cone). */
 static int find_place(lit_place *out, const lmb_shadow_map *map, const lmb_light *light, lmb_vec3 p)
 {
     const int directional = light_kind_is(light->kind, LIGHT_FAR);
     int32_t f =
-        LMB_TREES && directional ? lmb_shadow_map_part(map, p) : choose_shadow_face(map, sub3(p, light->position));
+        LMB_TREES && directional ? lmb_shadow_map_part(map, p) : shadow_map_face(map, sub3(p, light->position));
     const lmb_view *v = &map->view[f];
     lmb_vec3 d = sub3(p, v->eye);
     float w = -dot3(v->back, d), size = (float)map->size;
@@ -583,7 +571,7 @@ NOINLINE shadow_lit lit_of_some(const lmb_shadow_query *query, const lmb_kernels
     for (uint32_t left = asked; left != 0; left &= ~in) {
         const int k = lowest_bit(left);
         const int32_t f =
-            choose_shadow_face(query->map, sub3(tile_vec(tile->position, first + k), query->light->position));
+            shadow_map_face(query->map, sub3(tile_vec(tile->position, first + k), query->light->position));
         in = 1u << k;
         if ((query->map->drawn >> f & 1u) == 0) { /* nothing shadows it */
             out.lit |= in;

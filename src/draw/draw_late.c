@@ -38,13 +38,6 @@ static lmb_draw_plane quick_edge(const lmb_screen_vertex *a, const lmb_screen_ve
     return p;
 }
 
-static void quick_scale(lmb_draw_plane *p, double by)
-{
-    p->origin *= by;
-    p->x *= by;
-    p->y *= by;
-}
-
 void lmb_draw_finish(const lmb_draw_pass *pass, lmb_draw_shape *s)
 {
     lmb_draw_late *late = s->late;
@@ -61,8 +54,8 @@ void lmb_draw_finish(const lmb_draw_pass *pass, lmb_draw_shape *s)
         s->q.origin = (double)inverse[0] + (s->n1.origin * more1 + s->n2.origin * more2);
         s->q.x = s->n1.x * more1 + s->n2.x * more2;
         s->q.y = s->n1.y * more1 + s->n2.y * more2;
-        quick_scale(&s->n1, (double)inverse[1]);
-        quick_scale(&s->n2, (double)inverse[2]);
+        draw_scale_plane(&s->n1, (double)inverse[1]);
+        draw_scale_plane(&s->n2, (double)inverse[2]);
     }
 }
 

@@ -305,15 +305,6 @@ static void list_others(const lmb_draw_pass *pass, int32_t primitive, uint32_t c
     }
 }
 
-static void list_areas(const lmb_draw_pass *pass, int32_t primitive, uint32_t count)
-{
-    if (primitive == LMB_DRAW_TRIANGLES) {
-        list_triangles(pass, count);
-    } else {
-        list_others(pass, primitive, count);
-    }
-}
-
 static void list_lines(const lmb_draw_pass *pass, int32_t primitive, uint32_t count)
 {
     for (uint32_t i = 1; i < count; i += primitive == LMB_DRAW_LINES ? 2 : 1) {
@@ -445,8 +436,10 @@ lmb_status lmb_draw_list(const lmb_draw_target *target, const lmb_draw_state *st
         list_points(&pass, count);
     } else if (DRAW_FULL && primitive >= LMB_DRAW_LINES && primitive <= LMB_DRAW_LINE_LOOP) {
         list_lines(&pass, primitive, count);
+    } else if (primitive == LMB_DRAW_TRIANGLES) {
+        list_triangles(&pass, count);
     } else {
-        list_areas(&pass, primitive, count);
+        list_others(&pass, primitive, count);
     }
     return LMB_OK;
 }

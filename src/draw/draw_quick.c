@@ -596,7 +596,7 @@ static inline uint32_t quick_end(const lmb_draw_pass *pass, uint32_t count)
 }
 
 /* Small triangles in batches; others, and some after each of them, one by one. */
-static uint32_t quick_batches(const lmb_draw_pass *pass, uint32_t i, uint32_t count)
+uint32_t lmb_draw_quick_run(const lmb_draw_pass *pass, uint32_t i, uint32_t count)
 {
     const int is_indexed = pass->indices != NULL;
 #if LMB_DRAW_LANES
@@ -615,11 +615,6 @@ static uint32_t quick_batches(const lmb_draw_pass *pass, uint32_t i, uint32_t co
     }
 #endif
     return is_indexed ? quick_indexed(pass, i, count) : quick_stream(pass, i, count);
-}
-
-uint32_t lmb_draw_quick_run(const lmb_draw_pass *pass, uint32_t i, uint32_t count)
-{
-    return quick_batches(pass, i, count);
 }
 
 /* --- rectangles --------------------------------------------------------------------------------------------------- */

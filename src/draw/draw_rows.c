@@ -286,12 +286,6 @@ int lmb_draw_lanes_steps(float by_x[2][LMB_TILE_PIXELS], float by_y[2][LMB_TILE_
     return good;
 }
 
-static void rows_set_steps(lmb_draw_slope *slope, const lmb_draw_plane *p)
-{
-    slope->x = (float)p->x;
-    slope->y = (float)p->y;
-}
-
 int lmb_draw_rows_area(const lmb_draw_pass *pass, lmb_draw_shape *shape, const draw_edge edge[3], const int32_t box[4])
 {
     const lmb_draw_target *t = pass->target;
@@ -308,11 +302,11 @@ int lmb_draw_rows_area(const lmb_draw_pass *pass, lmb_draw_shape *shape, const d
     a.plane[1] = &shape->n1;
     a.plane[2] = &shape->n2;
     a.plane[3] = &shape->q;
-    rows_set_steps(&a.pixels.d, &shape->d);
-    rows_set_steps(&a.pixels.n1, &shape->n1);
-    rows_set_steps(&a.pixels.n2, &shape->n2);
+    draw_set_steps(&a.pixels.d, &shape->d);
+    draw_set_steps(&a.pixels.n1, &shape->n1);
+    draw_set_steps(&a.pixels.n2, &shape->n2);
     if (!shape->is_even) {
-        rows_set_steps(&a.pixels.q, &shape->q);
+        draw_set_steps(&a.pixels.q, &shape->q);
     }
     a.pixels.d_min = shape->d_min;
     a.pixels.d_max = shape->d_max;
@@ -348,10 +342,10 @@ void lmb_draw_rows_sheet(const lmb_draw_pass *pass, const lmb_draw_shape half[2]
         s.plane[i][0] = &half[i].n1;
         s.plane[i][1] = &half[i].n2;
         s.plane[i][2] = &half[i].q;
-        rows_set_steps(&s.half[i].n1, &half[i].n1);
-        rows_set_steps(&s.half[i].n2, &half[i].n2);
+        draw_set_steps(&s.half[i].n1, &half[i].n1);
+        draw_set_steps(&s.half[i].n2, &half[i].n2);
         if (!half[i].is_even) {
-            rows_set_steps(&s.half[i].q, &half[i].q);
+            draw_set_steps(&s.half[i].q, &half[i].q);
         }
     }
     s.x = (x * 256 + 128 - pass->middle_x) * (1.0 / 256.0);

@@ -11,6 +11,7 @@
 #include "../base/vec.h"
 #include "../draw/draw_part.h"
 #include "../direct/light_tile.h"
+#include "../raster/tile.h"
 #include "requires.h"
 #include "stages.h"
 
@@ -28,14 +29,8 @@ typedef struct vertex_job {
 
 static void vertex_face(lmb_tile *tile, int k, lmb_vec3 n)
 {
-    tile->face[0][k] = tile->normal[0][k] = n.x;
-    tile->face[1][k] = tile->normal[1][k] = n.y;
-    tile->face[2][k] = tile->normal[2][k] = n.z;
-}
-
-static lmb_vec3 vertex_at(const lmb_tile *tile, int k)
-{
-    return vec3(tile->position[0][k], tile->position[1][k], tile->position[2][k]);
+    tile_set_vec(tile->face, k, n);
+    tile_set_vec(tile->normal, k, n);
 }
 
 /* Sets the tile's pixels to vertices first .. first + n - 1. */
@@ -52,9 +47,7 @@ static void vertex_take(const vertex_job *j, uint32_t first, int n)
             normal = normalize3(add3(add3(mul3(j->turn[0], p[0]), mul3(j->turn[1], p[1])), mul3(j->turn[2], p[2])));
         }
         if (is_place(at) && is_place(normal) && dot3(normal, normal) > 0.5f) {
-            tile->position[0][k] = at.x;
-            tile->position[1][k] = at.y;
-            tile->position[2][k] = at.z;
+            tile_set_vec(tile->position, k, at);
             tile->depth[k] = absf(dot3(view->back, sub3(at, view->eye)));
             tile->id[k] = VERTEX_ID;
             vertex_face(tile, k, normal);
@@ -86,7 +79,8 @@ static lmb_status vertex_add_lamps(const vertex_job *j)
 {
     const lmb_frame *f = &j->r->frame;
     lmb_band_scratch *s = j->s;
-    const light_tile lit = {f->kernels, f->scene, &f->view, &s->together};
+    const lmb_tile *tile = &s->together;
+    const light_tile lit = {f->kernels, f->scene, &f->view, tile};
     lmb_status status = LMB_OK;
     memset(&s->direct, 0, sizeof s->direct);
     for (uint32_t i = 0; requires_direct(f) && i < f->scene->light_count && status == LMB_OK; ++i) {
@@ -95,7 +89,7 @@ static lmb_status vertex_add_lamps(const vertex_job *j)
             vertex_face(&s->together, k,
                         light_kind_is(light->kind, LIGHT_FAR)
                             ? mul3(light->direction, -1.0f)
-                            : normalize3(sub3(light->position, vertex_at(&s->together, k))));
+                            : normalize3(sub3(light->position, tile_vec(tile->position, k))));
         }
         if (!light_is(j->r, i, LMB_LIGHT_DARK)) {
             status = lmb_light_tile_add(&s->direct, NULL, &s->indirect, &lit, i, &j->r->maps[i]);

@@ -1,6 +1,7 @@
 /* shade.c: direct light of a tile, and the radiance of the pixels towards the viewer. Layer 8. */
 #include <string.h>
 
+#include "../base/light_kind.h"
 #include "../base/vec.h"
 #include "../direct/light_tile.h"
 #include "../occlusion/traversal.h"
@@ -19,7 +20,7 @@ static void show_irradiance(lmb_radiance *out, const lmb_irradiance *e) { memcpy
 static uint64_t trace_pixels(lmb_traversal *t, const lmb_frame *f, const lmb_light *light, const lmb_tile *tile,
                              uint64_t asked)
 {
-    return light->kind == LMB_LIGHT_DIRECTIONAL
+    return light_kind_is(light->kind, LIGHT_FAR)
                ? lmb_occluded_sun(f->kernels, t, &f->bvh, tile, asked, normalize3(mul3(light->direction, -1.0f)))
                : lmb_occluded_tile(f->kernels, t, &f->bvh, tile, asked, light->position,
                                    lmb_tile_noise(tile, asked) + lmb_place_noise(light->position, 0.0f));
@@ -37,9 +38,7 @@ NOINLINE uint64_t trace_moved(lmb_band_scratch *s, const lmb_frame *f, const lmb
         const lmb_vec3 at = tile_vec(tile->position, k), on = lmb_place_onto_triangle(f->scene, tile->id[k], at);
         if (on.x != at.x || on.y != at.y || on.z != at.z) {
             tile_put_pixel(moved, k, tile, k);
-            moved->position[0][k] = on.x;
-            moved->position[1][k] = on.y;
-            moved->position[2][k] = on.z;
+            tile_set_vec(moved->position, k, on);
             out |= (uint64_t)1 << k;
         }
     }

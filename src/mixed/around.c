@@ -6,6 +6,7 @@
 #include "../base/vertex.h"
 #include "../raster/texture.h"
 #include "../raster/triangle.h"
+#include "../raster/tile.h"
 #include <lambent/mixed.h>
 
 #if LMB_MIXED
@@ -136,12 +137,9 @@ size_t lmb_around_points(lmb_texel *out, size_t cap, const lmb_scene *scene, uin
 
 static void put_tile_point(lmb_tile *tile, int32_t k, const lmb_texel *from)
 {
-    const float p[3] = {from->position.x, from->position.y, from->position.z},
-                n[3] = {from->normal.x, from->normal.y, from->normal.z};
-    for (int32_t i = 0; i < 3; ++i) {
-        tile->position[i][k] = p[i];
-        tile->face[i][k] = tile->normal[i][k] = n[i];
-    }
+    tile_set_vec(tile->position, k, from->position);
+    tile_set_vec(tile->face, k, from->normal);
+    tile_set_vec(tile->normal, k, from->normal);
     tile->depth[k] = 1.0f;
     tile->id[k] = 1;
 }

@@ -3,6 +3,7 @@
 
 #include "../base/poly.h"
 #include "../lane/kernels.h"
+#include "../raster/tile.h"
 #include "octree.h"
 
 #if LMB_VOXELS
@@ -134,7 +135,7 @@ static void finish_cone(lmb_cone_seen *inout, const lmb_cone_trace *trace, float
         inout->open[k] = there ? inout->open[k] : 0.0f;
         float sky[3] = {0.0f, 0.0f, 0.0f};
         if (trace->env != NULL && inout->open[k] > 0.0f) {
-            lmb_env_sample(sky, trace->env, vec3(direction[0][k], direction[1][k], direction[2][k]), tangent);
+            lmb_env_sample(sky, trace->env, tile_vec((const float(*)[LMB_TILE_PIXELS])direction, k), tangent);
         }
         for (int c = 0; c < 3; ++c) {
             inout->rgb[c][k] = there ? inout->rgb[c][k] + inout->open[k] * sky[c] : 0.0f;
@@ -153,26 +154,14 @@ lmb_status lmb_cones_trace(lmb_cone_seen *out, const lmb_cone_trace *trace, cons
     return LMB_OK;
 }
 
-static lmb_vec3 at_pixel(const float plane[3][LMB_TILE_PIXELS], int k)
-{
-    return vec3(plane[0][k], plane[1][k], plane[2][k]);
-}
-
-static void set_plane_pixel(float plane[3][LMB_TILE_PIXELS], int k, lmb_vec3 v)
-{
-    plane[0][k] = v.x;
-    plane[1][k] = v.y;
-    plane[2][k] = v.z;
-}
-
 /* Sets tangents: perpendicular to the normal and to the axis least aligned with it. */
 static void set_tangents(float out[3][LMB_TILE_PIXELS], const lmb_tile *tile)
 {
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        const lmb_vec3 n = at_pixel(tile->normal, k);
+        const lmb_vec3 n = tile_vec(tile->normal, k);
         const float x = absf(n.x), y = absf(n.y), z = absf(n.z);
         const lmb_vec3 axis = x <= y && x <= z ? vec3(1, 0, 0) : y <= z ? vec3(0, 1, 0) : vec3(0, 0, 1);
-        set_plane_pixel(out, k, normalize3(cross3(axis, n)));
+        tile_set_vec(out, k, normalize3(cross3(axis, n)));
     }
 }
 
@@ -180,9 +169,9 @@ static void aim(float out[3][LMB_TILE_PIXELS], const lmb_tile *tile, float tange
                 const float along[3])
 {
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        const lmb_vec3 n = at_pixel(tile->normal, k), u = at_pixel((const float(*)[LMB_TILE_PIXELS])tangent, k);
+        const lmb_vec3 n = tile_vec(tile->normal, k), u = tile_vec((const float(*)[LMB_TILE_PIXELS])tangent, k);
         const lmb_vec3 d = add3(add3(mul3(u, along[0]), mul3(cross3(n, u), along[1])), mul3(n, along[2]));
-        set_plane_pixel(out, k, d);
+        tile_set_vec(out, k, d);
     }
 }
 
@@ -223,8 +212,8 @@ lmb_status lmb_cones_glossy(lmb_cone_seen *out, const lmb_cone_trace *trace, con
     }
     float (*direction)[LMB_TILE_PIXELS] = trace->scratch->direction;
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        const lmb_vec3 n = at_pixel(tile->normal, k), d = normalize3(sub3(at_pixel(tile->position, k), eye));
-        set_plane_pixel(direction, k, sub3(d, mul3(n, 2.0f * dot3(n, d))));
+        const lmb_vec3 n = tile_vec(tile->normal, k), d = normalize3(sub3(tile_vec(tile->position, k), eye));
+        tile_set_vec(direction, k, sub3(d, mul3(n, 2.0f * dot3(n, d))));
     }
     follow(out, trace, width, tile, direction);
     finish_cone(out, trace, width->tangent, tile, direction);

@@ -1,6 +1,7 @@
 /* delta.c: shadow maps without and with an object, and the photo changed by their difference. Layer 6. [M9 M23 M24] */
 #include "../base/poly.h"
 #include "../base/vec.h"
+#include "../raster/tile.h"
 #include <lambent/mixed.h>
 
 #if LMB_MIXED
@@ -54,8 +55,7 @@ lmb_status lmb_delta_tile(lmb_radiance *inout, const lmb_tile *real, const lmb_i
 
 static float schlick(const lmb_tile *real, int32_t k, float specular)
 {
-    const lmb_vec3 p = vec3(real->position[0][k], real->position[1][k], real->position[2][k]),
-                   n = vec3(real->normal[0][k], real->normal[1][k], real->normal[2][k]);
+    const lmb_vec3 p = tile_vec(real->position, k), n = tile_vec(real->normal, k);
     const float m = 1.0f - clampf(-dot3(normalize3(p), n), 0.0f, 1.0f), m2 = m * m;
     return specular + (1.0f - specular) * (m2 * m2 * m);
 }

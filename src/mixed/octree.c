@@ -48,7 +48,8 @@ lmb_status lmb_voxels_init(lmb_voxels *out, uint32_t cap, int32_t fields, void *
 
 /* --- places ------------------------------------------------------------------------------------------------------- */
 
-uint32_t lmb_octree_find(const lmb_voxels *v, octree_cell c, int32_t levels)
+/* Voxel of a cell with a side of 2^levels; a number under 8 if there is none. */
+static uint32_t voxel_of_cell(const lmb_voxels *v, octree_cell c, int32_t levels)
 {
     if (levels <= OCTREE_FULL) {
         return octree_full(c, levels);
@@ -107,7 +108,7 @@ uint32_t lmb_voxels_at(const lmb_voxels *v, lmb_vec3 at, int32_t level)
         return 0;
     }
     const octree_cell c = {(int32_t)p.x >> level, (int32_t)p.y >> level, (int32_t)p.z >> level};
-    const uint32_t found = lmb_octree_find(v, c, v->depth - level);
+    const uint32_t found = voxel_of_cell(v, c, v->depth - level);
     return found < 8 ? 0 : found;
 }
 

@@ -37,9 +37,6 @@ static inline lmb_vec3 octree_place(const lmb_voxels *v, lmb_vec3 at)
     return mul3(sub3(at, v->low), 1.0f / v->leaf);
 }
 
-/* Voxel of a cell with a side of 2^levels; a number under 8 if there is none. */
-uint32_t lmb_octree_find(const lmb_voxels *v, octree_cell c, int32_t levels);
-
 /* Voxel of `level` (0: leaves) at a position; 0: empty space. */
 uint32_t lmb_voxels_at(const lmb_voxels *v, lmb_vec3 at, int32_t level);
 

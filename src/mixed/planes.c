@@ -175,8 +175,9 @@ static void add_near_pixel(plane_fit *sums, const lmb_flat *p, const lmb_cloud *
     }
 }
 
-/* Sums rows separately, so that at most 8192 terms are added to one float. */
-int lmb_planes_fit(float slope[3], const lmb_planes *planes, const lmb_cloud *cloud, int32_t label, float off)
+/* Fits a plane's pixels that lie within `off` deviations. Returns 0 if they give no plane. Sums rows separately, so that
+ * at most 8192 terms are added to one float. */
+static int fit_plane(float slope[3], const lmb_planes *planes, const lmb_cloud *cloud, int32_t label, float off)
 {
     const lmb_flat *p = &planes->plane[label - 1];
     const lmb_pinhole *c = &cloud->camera;
@@ -201,7 +202,7 @@ static void fit_all(lmb_planes *planes, const lmb_cloud *cloud)
     for (int32_t i = 0; i < planes->count; ++i) {
         lmb_flat *p = &planes->plane[i];
         float slope[3];
-        if (lmb_planes_fit(slope, planes, cloud, i + 1, FIT_OFF)) {
+        if (fit_plane(slope, planes, cloud, i + 1, FIT_OFF)) {
             memcpy(p->slope, slope, sizeof slope);
         }
         p->normal = lmb_plane_normal(&p->distance, p->slope);

@@ -19,9 +19,6 @@ static inline float plane_off(const lmb_cloud *cloud, const float slope[3], floa
     return absf(inverse - plane_inverse(slope, ray.x, ray.y)) / lmb_cloud_sigma(cloud, inverse);
 }
 
-/* lmb_planes_fit: fits a plane's pixels that lie within `off` deviations. Returns 0 if they give no plane. */
-int lmb_planes_fit(float slope[3], const lmb_planes *planes, const lmb_cloud *cloud, int32_t label, float off);
-
 /* lmb_planes_outline: assigns each pixel to the best plane, and holes to the plane around them.                 [M4] */
 void lmb_planes_outline(lmb_planes *planes, const lmb_cloud *cloud);
 

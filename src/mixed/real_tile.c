@@ -1,6 +1,7 @@
 /* real_tile.c: the photo's surfaces as tiles that can be lit. Layer 6.     [M4] */
 #include <string.h>
 
+#include "../raster/tile.h"
 #include "planes.h"
 
 #if LMB_MIXED
@@ -116,13 +117,9 @@ static int surface_at(surface *s, const tile_maker *m, int32_t x, int32_t y)
 
 static void put_real_pixel(lmb_tile *out, int32_t k, const surface *s)
 {
-    const float p[3] = {s->position.x, s->position.y, s->position.z}, f[3] = {s->face.x, s->face.y, s->face.z},
-                n[3] = {s->normal.x, s->normal.y, s->normal.z};
-    for (int32_t i = 0; i < 3; ++i) {
-        out->position[i][k] = p[i];
-        out->face[i][k] = f[i];
-        out->normal[i][k] = n[i];
-    }
+    tile_set_vec(out->position, k, s->position);
+    tile_set_vec(out->face, k, s->face);
+    tile_set_vec(out->normal, k, s->normal);
     out->depth[k] = s->depth;
     out->id[k] = s->id;
     ++out->hits;

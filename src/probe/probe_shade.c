@@ -107,9 +107,7 @@ static void reflect(float out[3][LMB_TILE_PIXELS], const lmb_glossy *glossy, con
         const int has = (int)(glossy->pixels >> k & 1u);
         const lmb_vec3 n = tile_vec(tile->normal, k), v = has ? tile_vec(glossy->towards, k) : n;
         const lmb_vec3 r = has ? sub3(mul3(n, 2.0f * dot3(n, v)), v) : vec3(0.0f, 1.0f, 0.0f);
-        out[0][k] = r.x;
-        out[1][k] = r.y;
-        out[2][k] = r.z;
+        tile_set_vec(out, k, r);
     }
 }
 
@@ -222,12 +220,8 @@ static void view_rays(lmb_probe_rays *out, const lmb_view *view, int32_t x, int3
         const lmb_vec3 from = add3(rays.origin, add3(mul3(rays.ox, across), mul3(rays.oy, down)));
         const lmb_vec3 at = add3(view->eye, from);
         const lmb_vec3 to = normalize3(add3(rays.direction, add3(mul3(rays.rx, across), mul3(rays.ry, down))));
-        out->origin[0][k] = at.x;
-        out->origin[1][k] = at.y;
-        out->origin[2][k] = at.z;
-        out->direction[0][k] = to.x;
-        out->direction[1][k] = to.y;
-        out->direction[2][k] = to.z;
+        tile_set_vec(out->origin, k, at);
+        tile_set_vec(out->direction, k, to);
     }
 }
 

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "../base/poly.h"
+#include "../raster/tile.h"
 #include "cube.h"
 #include "world.h"
 
@@ -58,13 +59,6 @@ static void frame_of(lmb_vec3 *across, lmb_vec3 *along, lmb_vec3 n)
     *along = cross3(n, *across);
 }
 
-static void put_ray(float (*planes)[LMB_TILE_PIXELS], int32_t k, lmb_vec3 v)
-{
-    planes[0][k] = v.x;
-    planes[1][k] = v.y;
-    planes[2][k] = v.z;
-}
-
 static void set_ray_tile(lmb_probe_rays *t, int32_t first, int32_t n, lmb_vec3 at)
 {
     for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
@@ -72,12 +66,10 @@ static void set_ray_tile(lmb_probe_rays *t, int32_t first, int32_t n, lmb_vec3 a
         lmb_vec3 across, along;
         const lmb_vec3 d = cube_direction(i / (n * n), i % n, i / n % n, n);
         frame_of(&across, &along, d);
-        put_ray(t->n, k, d);
-        put_ray(t->across, k, across);
-        put_ray(t->along, k, along);
-        t->origin[0][k] = at.x;
-        t->origin[1][k] = at.y;
-        t->origin[2][k] = at.z;
+        tile_set_vec(t->n, k, d);
+        tile_set_vec(t->across, k, across);
+        tile_set_vec(t->along, k, along);
+        tile_set_vec(t->origin, k, at);
     }
     memset(t->sum, 0, sizeof t->sum);
 }
@@ -99,9 +91,7 @@ static void point_fine(lmb_probe_rays *t, int32_t first, int32_t n, int32_t part
         const int32_t i = mini(first + k, 6 * n * n - 1), x = MIRROR_RAYS_A_SIDE * (i % n) + part % MIRROR_RAYS_A_SIDE,
                       y = MIRROR_RAYS_A_SIDE * (i / n % n) + part / MIRROR_RAYS_A_SIDE;
         const lmb_vec3 d = cube_direction(i / (n * n), x, y, MIRROR_RAYS_A_SIDE * n);
-        t->direction[0][k] = d.x;
-        t->direction[1][k] = d.y;
-        t->direction[2][k] = d.z;
+        tile_set_vec(t->direction, k, d);
     }
 }
 
@@ -131,7 +121,7 @@ static void add_peaks(lmb_probe_rays *t, const lmb_world_job *job, const lmb_wor
         lmb_vec3 to;
         const float times = lmb_world_see_peak(&to, job, world, &world->peak[i], at) * lobe;
         for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-            const float part = times * lobe_at(vec3(t->n[0][k], t->n[1][k], t->n[2][k]), to, alpha * alpha);
+            const float part = times * lobe_at(tile_vec((const float(*)[LMB_TILE_PIXELS])t->n, k), to, alpha * alpha);
             for (int c = 0; c < 3; ++c) {
                 t->sum[c][k] += part * world->peak[i].flux[c];
             }

@@ -5,6 +5,7 @@
 #include "../base/vertex.h"
 #include "resolve.h"
 #include "texture.h"
+#include "tile.h"
 
 static lmb_vec3 vector_of(const float (*v)[LMB_SLOTS], int32_t slot)
 {
@@ -202,9 +203,7 @@ static void paint_normal(lmb_tile *out, const lmb_resolve_batch *b, const lmb_pa
         float length2 = dot3(bent, bent);
         if (length2 > 1e-12f && is_sane(length2)) {
             n = above_face(mul3(bent, f->side / sqrtf(length2)), face);
-            out->normal[0][k] = n.x;
-            out->normal[1][k] = n.y;
-            out->normal[2][k] = n.z;
+            tile_set_vec(out->normal, k, n);
         }
     }
 }

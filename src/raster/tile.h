@@ -12,6 +12,13 @@
 
 static inline lmb_vec3 tile_vec(const float (*p)[LMB_TILE_PIXELS], int k) { return vec3(p[0][k], p[1][k], p[2][k]); }
 
+static inline void tile_set_vec(float (*p)[LMB_TILE_PIXELS], int k, lmb_vec3 v)
+{
+    p[0][k] = v.x;
+    p[1][k] = v.y;
+    p[2][k] = v.z;
+}
+
 /* Copies the pixel data that a gather reads. */
 static inline void tile_put_pixel(lmb_tile *out, int to, const lmb_tile *in, int from)
 {

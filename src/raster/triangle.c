@@ -154,9 +154,7 @@ uint64_t lmb_tile_onto_triangles(lmb_tile *inout, const lmb_scene *scene)
         if (inout->id[k] != 0 && is_shape) {
             const lmb_vec3 on = into_triangle(&t, normal, at);
             moved |= (uint64_t)(on.x != at.x || on.y != at.y || on.z != at.z) << k;
-            inout->position[0][k] = on.x;
-            inout->position[1][k] = on.y;
-            inout->position[2][k] = on.z;
+            tile_set_vec(inout->position, k, on);
         }
     }
     return moved;

@@ -8,6 +8,7 @@
 
 #include "../base/vec.h"
 #include "../raster/plane.h"
+#include "../raster/tile.h"
 
 #if LMB_RELIEF
 
@@ -31,18 +32,6 @@ typedef struct mender {
     lmb_rays rays;
 } mender;
 
-static lmb_vec3 get(float (*planes)[LMB_TILE_PIXELS], int k)
-{
-    return vec3(planes[0][k], planes[1][k], planes[2][k]);
-}
-
-static void put_tile_place(float (*planes)[LMB_TILE_PIXELS], int k, lmb_vec3 v)
-{
-    planes[0][k] = v.x;
-    planes[1][k] = v.y;
-    planes[2][k] = v.z;
-}
-
 uint64_t lmb_relief_beside(int k)
 {
     const int x = k % LMB_TILE, y = k / LMB_TILE;
@@ -55,8 +44,9 @@ uint64_t lmb_relief_beside(int k)
  * k. */
 static float depth_at_neighbour(const mender *m, const mend_around *a, int k)
 {
-    const lmb_vec3 to = sub3(sub3(get(m->tile->position, k), m->job->eye), a->origin), n = get(m->tile->normal, k);
-    const float along = dot3(n, a->along), own = m->tile->depth[k];
+    const lmb_tile *t = m->tile;
+    const lmb_vec3 to = sub3(sub3(tile_vec(t->position, k), m->job->eye), a->origin), n = tile_vec(t->normal, k);
+    const float along = dot3(n, a->along), own = t->depth[k];
     return along < -MIN_RAY_COSINE ? clampf(dot3(n, to) / along, own - a->same, own + a->same) : own;
 }
 
@@ -99,6 +89,7 @@ static int most_agree(const mend_around *a)
 static void take_surface(const mender *m, const mend_around *a, int k)
 {
     lmb_tile *t = m->tile;
+    const lmb_tile *in = t;
     lmb_vec3 normal = vec3(0.0f, 0.0f, 0.0f), albedo = normal;
     float depth = 0.0f, n = 0.0f;
     int best = 0;
@@ -107,18 +98,18 @@ static void take_surface(const mender *m, const mend_around *a, int k)
     }
     for (int i = 0; i < a->hits; ++i) {
         if (absf(a->depth[i] - a->depth[best]) <= a->same) {
-            normal = add3(normal, get(t->normal, a->at[i]));
-            albedo = add3(albedo, get(t->albedo, a->at[i]));
+            normal = add3(normal, tile_vec(in->normal, a->at[i]));
+            albedo = add3(albedo, tile_vec(in->albedo, a->at[i]));
             depth += a->depth[i];
             n += 1.0f;
         }
     }
     depth = depth / n;
     normal = normalize3(normal);
-    put_tile_place(t->position, k, add3(m->job->eye, add3(a->origin, mul3(a->along, depth))));
-    put_tile_place(t->face, k, normal);
-    put_tile_place(t->normal, k, normal);
-    put_tile_place(t->albedo, k, mul3(albedo, 1.0f / n));
+    tile_set_vec(t->position, k, add3(m->job->eye, add3(a->origin, mul3(a->along, depth))));
+    tile_set_vec(t->face, k, normal);
+    tile_set_vec(t->normal, k, normal);
+    tile_set_vec(t->albedo, k, mul3(albedo, 1.0f / n));
     t->depth[k] = depth;
     t->id[k] = t->id[a->at[best]];
 }

@@ -9,7 +9,9 @@
 #include "../base/light_kind.h"
 #include "../base/vec.h"
 #include "../direct/part.h"
+#include "../direct/shadow.h"
 #include "../raster/target.h"
+#include "../raster/tile.h"
 #include "mend.h"
 
 #if LMB_RELIEF
@@ -89,25 +91,13 @@ typedef struct receiver {
     lmb_vec3 at, plane; /* m; unit */
 } receiver;
 
-static int32_t choose_relief_face(const lmb_shadow_map *map, lmb_vec3 d)
-{
-    const lmb_vec3 a = vec3(absf(d.x), absf(d.y), absf(d.z));
-    if (map->faces == 1) {
-        return 0;
-    }
-    if (a.x >= a.y && a.x >= a.z) {
-        return d.x < 0.0f;
-    }
-    return a.y >= a.z ? 2 + (d.y < 0.0f) : 4 + (d.z < 0.0f);
-}
-
 /* Returns 0 if the receiver lies outside the map. */
 static int find_receiver(receiver *r, const lmb_shadow_map *map, const lmb_light *light, const lmb_tile *tile, int k)
 {
-    r->at = vec3(tile->position[0][k], tile->position[1][k], tile->position[2][k]);
-    r->plane = vec3(tile->face[0][k], tile->face[1][k], tile->face[2][k]);
+    r->at = tile_vec(tile->position, k);
+    r->plane = tile_vec(tile->face, k);
     const int32_t f = light_kind_is(light->kind, LIGHT_FAR) ? lmb_shadow_map_part(map, r->at)
-                                                            : choose_relief_face(map, sub3(r->at, light->position));
+                                                            : shadow_map_face(map, sub3(r->at, light->position));
     const lmb_view *v = r->view = &map->view[f];
     const lmb_vec3 d = sub3(r->at, v->eye);
     const float size = (float)map->size;

@@ -7,6 +7,7 @@
 #include "../base/vec.h"
 #include "../lane/kernels.h"
 #include "../raster/target.h"
+#include "../raster/tile.h"
 #include "mend.h"
 
 #if LMB_RELIEF
@@ -46,7 +47,7 @@ static void add_aligned(lmb_relief_job *job, const lmb_tile *tile, const lmb_rel
     while (k < LMB_TILE_PIXELS - 1 && tile->id[k] == 0) {
         ++k;
     }
-    const lmb_vec3 at = vec3(tile->position[0][k], tile->position[1][k], tile->position[2][k]);
+    const lmb_vec3 at = tile_vec(tile->position, k);
     const lmb_vec3 towards = job->perspective ? normalize3(sub3(job->eye, at)) : job->back;
     while (job->count < mini(max, relief->views)) {
         float best = -2.0f;

@@ -195,7 +195,7 @@ static void add_piece(element_maker *m, const piece_source *s, const surface_pie
         e.fresh[0] = n.x;
         e.fresh[1] = n.y;
         e.fresh[2] = n.z;
-        e.key = piece_facing(n) << (3 * PIECE_Z_BITS);
+        e.key = side_of3(n) << (3 * PIECE_Z_BITS);
         add_element(m, &e, small);
     }
 }

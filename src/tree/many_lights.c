@@ -187,20 +187,10 @@ static lmb_many_lights_source source_of(const lmb_light *l)
     return s;
 }
 
-/* 0 .. 5: dominant axis and sign of a spot's direction. */
-static uint32_t side_of_direction(lmb_vec3 d)
-{
-    const float x = absf(d.x), y = absf(d.y), z = absf(d.z);
-    if (x >= y && x >= z) {
-        return d.x < 0.0f;
-    }
-    return y >= z ? 2u + (d.y < 0.0f) : 4u + (d.z < 0.0f);
-}
-
 static uint32_t kind_of(const lmb_light *l)
 {
     return l->kind == LMB_LIGHT_POINT  ? 0u
-           : l->kind == LMB_LIGHT_SPOT ? 1u + side_of_direction(l->direction)
+           : l->kind == LMB_LIGHT_SPOT ? 1u + side_of3(l->direction)
                                        : LMB_MANY_LIGHTS_SUNS;
 }
 

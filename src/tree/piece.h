@@ -45,16 +45,6 @@ static inline float piece_uv_at(const piece_source *s, int c, float b1, float b2
     return piece_mix(s->uv[0][c], s->uv[1][c], s->uv[2][c], b1, b2);
 }
 
-/* 0 .. 5: dominant axis and sign of a normal. */
-static inline uint32_t piece_facing(lmb_vec3 n)
-{
-    const float x = absf(n.x), y = absf(n.y), z = absf(n.z);
-    if (x >= y && x >= z) {
-        return n.x < 0.0f;
-    }
-    return y >= z ? 2u + (n.y < 0.0f) : 4u + (n.z < 0.0f);
-}
-
 /* Moves bits 0, 1, 2, .. to 0, 3, 6, .. */
 static inline uint32_t piece_spread_bits(uint32_t v)
 {

@@ -37,11 +37,7 @@ static int32_t face_towards(const lmb_shadow_map *map, const lmb_light *light, l
     if (light_kind_is(light->kind, LIGHT_FAR)) {
         return LMB_TREES ? lmb_shadow_map_part(map, at) : 0;
     }
-    const lmb_vec3 d = sub3(at, light->position), a = vec3(absf(d.x), absf(d.y), absf(d.z));
-    if (a.x >= a.y && a.x >= a.z) {
-        return d.x < 0.0f;
-    }
-    return a.y >= a.z ? 2 + (d.y < 0.0f) : 4 + (d.z < 0.0f);
+    return (int32_t)side_of3(sub3(at, light->position));
 }
 
 /* Tests the surface at the centre of the texel against the receiver's plane there, like the last resort of

@@ -244,7 +244,8 @@ static int set_counts(ladder_facts *out, const render_job *j)
     return 1;
 }
 
-int scene_sample(ladder_facts *out, look_cost *cost, render_job *j, const ladder_budget *budget, uint64_t fixed, report *r)
+int scene_sample(ladder_facts *out, look_cost *cost, render_job *j, const ladder_budget *budget, uint64_t fixed,
+                 report *r)
 {
     const double start = host_seconds();
     looker l;
