@@ -19,6 +19,12 @@ static inline lmb_status check_memory(const void *memory, size_t bytes, size_t n
     return needed == 0 || bytes < needed ? LMB_ERR_CAPACITY : LMB_OK;
 }
 
+/* The same for the object that owns the arrays. Pass needed = 0 if the size is impossible: LMB_ERR_ARG. */
+static inline lmb_status check_array(const void *out, const void *memory, size_t bytes, size_t needed)
+{
+    return out == NULL || needed == 0 ? LMB_ERR_ARG : check_memory(memory, bytes, needed);
+}
+
 /* For an object laid out in memory that is aligned as for a uint64_t. Pass needed = 0 if its size is impossible. */
 static inline lmb_status check_room(const void *out, const void *memory, size_t bytes, size_t needed)
 {

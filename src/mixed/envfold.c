@@ -66,7 +66,7 @@ lmb_status lmb_env_fold(const lmb_env *env, const float *rgb, int32_t width, int
     }
     const int32_t n = env->size;
     for (int32_t i = 0; i < 6 * n * n; ++i) {
-        const cube_place at = {i / (n * n), i % n, i / n % n};
+        const cube_place at = cube_nth(i, n);
         float sum[3];
         fold_texel(sum, env, &from, at);
         lmb_env_set(env, at.face, at.x, at.y, sum);

@@ -25,10 +25,7 @@ size_t lmb_voxels_bytes(uint32_t cap, int32_t fields)
 lmb_status lmb_voxels_init(lmb_voxels *out, uint32_t cap, int32_t fields, void *memory, size_t bytes)
 {
     const size_t needed = lmb_voxels_bytes(cap, fields);
-    if (out == NULL || needed == 0) {
-        return LMB_ERR_ARG;
-    }
-    const lmb_status status = check_memory(memory, bytes, needed);
+    const lmb_status status = check_array(out, memory, bytes, needed);
     if (status != LMB_OK) {
         return status;
     }

@@ -175,8 +175,8 @@ static void add_near_pixel(plane_fit *sums, const lmb_flat *p, const lmb_cloud *
     }
 }
 
-/* Fits a plane's pixels that lie within `off` deviations. Returns 0 if they give no plane. Sums rows separately, so that
- * at most 8192 terms are added to one float. */
+/* Fits a plane's pixels that lie within `off` deviations. Returns 0 if they give no plane. Sums rows separately, so
+ * that at most 8192 terms are added to one float. */
 static int fit_plane(float slope[3], const lmb_planes *planes, const lmb_cloud *cloud, int32_t label, float off)
 {
     const lmb_flat *p = &planes->plane[label - 1];

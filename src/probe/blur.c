@@ -234,7 +234,7 @@ lmb_status lmb_probe_map_cube(float *cube, int32_t n, const float *map, const lm
         return LMB_ERR_ARG;
     }
     for (int32_t i = 0; i < 6 * n * n; ++i) {
-        const lmb_vec3 d = cube_direction(i / (n * n), i % n, i / n % n, n);
+        const lmb_vec3 d = cube_nth_direction(i, n);
         const float turn = (lmb_atan2(d.x, -d.z) - table->start) * (1.0f / (2.0f * LMB_PI)) + 2.0f;
         const float u = (turn - floorf(turn)) * (float)table->width + 0.5f,
                     v = lmb_acos(d.y) * (1.0f / LMB_PI) * (float)table->height + 0.5f;

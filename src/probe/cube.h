@@ -49,6 +49,19 @@ typedef struct cube_place {
     int32_t face, x, y;
 } cube_place;
 
+/* Texel i of 6 n^2, row by row and face by face, and the direction to its centre. */
+static inline cube_place cube_nth(int32_t i, int32_t n)
+{
+    const cube_place p = {i / (n * n), i % n, i / n % n};
+    return p;
+}
+
+static inline lmb_vec3 cube_nth_direction(int32_t i, int32_t n)
+{
+    const cube_place p = cube_nth(i, n);
+    return cube_direction(p.face, p.x, p.y, n);
+}
+
 /* The texel that a direction meets, for faces with n x n. */
 static inline cube_place cube_texel_of(lmb_vec3 d, int32_t n)
 {

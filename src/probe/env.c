@@ -39,10 +39,7 @@ lmb_status lmb_env_init(lmb_env *out, int32_t size, void *memory, size_t bytes)
 {
     const size_t need = lmb_env_bytes(size);
     uint32_t at = 0;
-    if (out == NULL || need == 0) {
-        return LMB_ERR_ARG;
-    }
-    const lmb_status status = check_memory(memory, bytes, need);
+    const lmb_status status = check_array(out, memory, bytes, need);
     if (status != LMB_OK) {
         return status;
     }
@@ -99,8 +96,7 @@ void lmb_env_mips(const lmb_env *env)
     for (int32_t l = 1; is_env_valid(env) && l < env->levels; ++l) {
         const int32_t n = env->size >> l;
         for (int32_t i = 0; i < 6 * n * n; ++i) {
-            const cube_place p = {i / (n * n), i % n, i / n % n};
-            halve_texel(env, l, p);
+            halve_texel(env, l, cube_nth(i, n));
         }
     }
 }

@@ -17,12 +17,6 @@ static uint32_t texels_of(const lmb_env *env, int32_t level)
     return 6 * n * n;
 }
 
-static cube_place texel_place(uint32_t i, int32_t n)
-{
-    const cube_place p = {(int32_t)i / (n * n), (int32_t)i % n, (int32_t)i / n % n};
-    return p;
-}
-
 static lmb_vec3 direction_of_texel(cube_place p, int32_t n) { return cube_direction(p.face, p.x, p.y, n); }
 
 /* sr, of a texel of faces with n x n: area on the cube over the cube of the distance. */
@@ -136,7 +130,7 @@ lmb_status lmb_env_sky(const lmb_env *env, lmb_vec3 to_sun, float turbidity, flo
     const sky s = sky_of(to_sun, turbidity > 2.0f ? minf(turbidity, 10.0f) : 2.0f);
     for (uint32_t i = 0; i < texels_of(env, 0); ++i) {
         float rgb[3];
-        const cube_place p = texel_place(i, env->size);
+        const cube_place p = cube_nth((int32_t)i, env->size);
         const lmb_vec3 d = direction_of_texel(p, env->size);
         if (d.y > 0.0f) {
             sky_at(rgb, &s, d, scale);
@@ -165,7 +159,7 @@ static uint32_t sort_brightest(float *all, const lmb_env *env)
     for (uint32_t i = 0; i < texels_of(env, 0); ++i) {
         float rgb[3];
         read_env_texel(rgb, env, 0, i);
-        sum += (double)(sum3(rgb) * solid_angle_of_place(texel_place(i, env->size), env->size));
+        sum += (double)(sum3(rgb) * solid_angle_of_place(cube_nth((int32_t)i, env->size), env->size));
         if (sum3(rgb) > highest) {
             highest = sum3(rgb);
             best = i;
@@ -187,7 +181,7 @@ static void gather_sun(lmb_light *out, const lmb_env *env, lmb_vec3 middle, floa
 {
     for (uint32_t i = 0; i < texels_of(env, 0); ++i) {
         float rgb[3];
-        const cube_place p = texel_place(i, env->size);
+        const cube_place p = cube_nth((int32_t)i, env->size);
         const lmb_vec3 d = direction_of_texel(p, env->size);
         read_env_texel(rgb, env, 0, i);
         const float share = share_over(rgb, limit), angle = solid_angle_of_place(p, env->size);
@@ -222,7 +216,7 @@ int lmb_env_take_sun(lmb_light *out, const lmb_env *env)
     if (out == NULL || !is_sky_env(env)) {
         return 0;
     }
-    const lmb_vec3 middle = direction_of_texel(texel_place(sort_brightest(&all, env), env->size), env->size);
+    const lmb_vec3 middle = direction_of_texel(cube_nth((int32_t)sort_brightest(&all, env), env->size), env->size);
     const float limit = SUN_OVER * all / (4.0f * LMB_PI);
     const lmb_light sun = sun_of(env, middle, limit, 0);
     if (!(sum3(sun.intensity) >= SUN_SHARE * all) || !(all > 0.0f)) {
@@ -251,9 +245,9 @@ uint32_t lmb_env_lights(lmb_light *out, uint32_t cap, const lmb_env *env, int32_
         }
         l.kind = LMB_LIGHT_DIRECTIONAL;
         l.cos_inner = l.cos_outer = 1.0f;
-        l.direction = mul3(direction_of_texel(texel_place(i, n), n), -1.0f);
+        l.direction = mul3(direction_of_texel(cube_nth((int32_t)i, n), n), -1.0f);
         for (int c = 0; c < 3; ++c) {
-            l.intensity[c] *= solid_angle_of_place(texel_place(i, n), n);
+            l.intensity[c] *= solid_angle_of_place(cube_nth((int32_t)i, n), n);
         }
         out[count++] = l;
     }

@@ -144,7 +144,7 @@ static void set_normals(float normal[3][LMB_TILE_PIXELS], int32_t first, int32_t
 {
     for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
         const int32_t i = mini(first + k, 6 * n * n - 1);
-        const lmb_vec3 d = cube_direction(i / (n * n), i % n, i / n % n, n);
+        const lmb_vec3 d = cube_nth_direction(i, n);
         tile_set_vec(normal, k, d);
     }
 }

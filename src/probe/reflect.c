@@ -64,7 +64,7 @@ static void set_ray_tile(lmb_probe_rays *t, int32_t first, int32_t n, lmb_vec3 a
     for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
         const int32_t i = mini(first + k, 6 * n * n - 1);
         lmb_vec3 across, along;
-        const lmb_vec3 d = cube_direction(i / (n * n), i % n, i / n % n, n);
+        const lmb_vec3 d = cube_nth_direction(i, n);
         frame_of(&across, &along, d);
         tile_set_vec(t->n, k, d);
         tile_set_vec(t->across, k, across);

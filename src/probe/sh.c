@@ -87,7 +87,7 @@ lmb_status lmb_probe_sh_cube(float *cube, int32_t n, const float coefficient[3][
     }
     for (int32_t i = 0; i < 6 * n * n; ++i) {
         float h[LMB_SH_25];
-        harmonics(h, cube_direction(i / (n * n), i % n, i / n % n, n));
+        harmonics(h, cube_nth_direction(i, n));
         for (int32_t c = 0; c < 3; ++c) {
             float sum = 0.0f;
             for (int32_t l = 0; l * l < terms; ++l) {

@@ -104,7 +104,7 @@ static void set_lights(lmb_probe_table *t)
 {
     const int32_t n = LMB_PROBE_SIDE;
     for (int32_t i = 0; i < LMB_PROBE_TEXELS; ++i) {
-        const lmb_vec3 d = cube_direction(i / (n * n), i % n, i / n % n, n);
+        const lmb_vec3 d = cube_nth_direction(i, n);
         t->light[i] = d.x;
         t->light[LMB_PROBE_TEXELS + i] = d.y;
         t->light[2 * LMB_PROBE_TEXELS + i] = d.z;

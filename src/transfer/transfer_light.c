@@ -27,10 +27,7 @@ size_t lmb_transfer_light_bytes(const lmb_transfer *t)
 lmb_status lmb_transfer_light_init(lmb_transfer_light *out, const lmb_transfer *t, void *memory, size_t bytes)
 {
     const size_t needed = lmb_transfer_light_bytes(t);
-    if (out == NULL || needed == 0) {
-        return LMB_ERR_ARG;
-    }
-    const lmb_status status = check_memory(memory, bytes, needed);
+    const lmb_status status = check_array(out, memory, bytes, needed);
     if (status != LMB_OK) {
         return status;
     }

@@ -37,10 +37,7 @@ size_t lmb_elements_bytes(uint32_t n)
 lmb_status lmb_elements_init(lmb_elements *out, uint32_t n, void *memory, size_t bytes)
 {
     const size_t needed = lmb_elements_bytes(n);
-    if (out == NULL || needed == 0) {
-        return LMB_ERR_ARG;
-    }
-    const lmb_status status = check_memory(memory, bytes, needed);
+    const lmb_status status = check_array(out, memory, bytes, needed);
     if (status != LMB_OK) {
         return status;
     }

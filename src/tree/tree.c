@@ -31,10 +31,7 @@ size_t lmb_tree_bytes(uint32_t faces, int32_t size)
 lmb_status lmb_tree_init(lmb_tree *out, uint32_t faces, int32_t size, void *memory, size_t bytes)
 {
     const size_t needed = lmb_tree_bytes(faces, size);
-    if (out == NULL || needed == 0) {
-        return LMB_ERR_ARG;
-    }
-    const lmb_status status = check_memory(memory, bytes, needed);
+    const lmb_status status = check_array(out, memory, bytes, needed);
     if (status != LMB_OK) {
         return status;
     }

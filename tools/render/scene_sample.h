@@ -16,6 +16,7 @@ typedef struct look_cost {
  * cost over a fifth of the picture. Without a budget it uses the job's settings and at most a seventh of the tiles.
  * If no light bounces by cuts, out->max is 0. `fixed`: see ladder_cost. Returns 1, or 0 with `r` set: out of
  * memory. */
-int scene_sample(ladder_facts *out, look_cost *cost, render_job *j, const ladder_budget *budget, uint64_t fixed, report *r);
+int scene_sample(ladder_facts *out, look_cost *cost, render_job *j, const ladder_budget *budget, uint64_t fixed,
+                 report *r);
 
 #endif
