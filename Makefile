@@ -109,8 +109,8 @@ measure_of  = $(call object,$(wildcard tests/measure/main_$(1).c tests/measure/$
 # What draws the built-in scene: main_demo.c replaces the readers of files and what only they need. On x86-64 SSE2 is the
 # only backend, because the others take half of the time to compile the library.
 PICTURE_TOOLS := $(filter-out $(addprefix tools/,common/io_json.c common/merge.c common/frame_name.c common/key_path.c \
-              common/text_buffer.c render/bench_calibrate.c render/budget.c render/render_world.c render/scene_sample.c \
-              render/wireframe.c),$(filter tools/common/% tools/render/%,$(TOOL_SRC))) \
+              common/text_buffer.c render/bench_calibrate.c render/budget.c render/ladder.c render/render_world.c \
+              render/scene_sample.c render/wireframe.c),$(filter tools/common/% tools/render/%,$(TOOL_SRC))) \
               $(addprefix tools/,demo/demo_scene.c model/scene_hash.c) \
               $(addprefix tools/picture/,grey.c image.c io_deflate.c io_hdr.c io_pfm.c io_png_write.c io_ppm.c picture.c)
 PICTURE_LIB := $(filter-out src/draw/% src/mixed/% src/relief/% src/vertex/% src/frame/plan% src/frame/relight.c \
