@@ -5,6 +5,7 @@
 #include "../base/vec.h"
 #include "../base/whole.h"
 #include "../lane/kernels.h"
+#include "../raster/tile.h"
 #include "light_tile.h"
 #include "shadow.h"
 
@@ -41,8 +42,7 @@ ALWAYS_INLINE lmb_lit_pixels find_direct(lmb_irradiance *one, lmb_shadow_query *
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         const int dark =
             tile->id[k] == 0 || (one->rgb[0][k] == 0.0f && one->rgb[1][k] == 0.0f && one->rgb[2][k] == 0.0f);
-        const lmb_receiver r = {tile_vec(tile->position, k),
-                                tile_vec(tile->face, k), tile->id[k]};
+        const lmb_receiver r = {tile_vec(tile->position, k), tile_vec(tile->face, k), tile->id[k]};
         const int lit = dark ? 0 : query->map == NULL ? 1 : lmb_is_lit(query, &r);
         out.lit |= (uint64_t)(lit != 0) << k;
         out.doubtful |= (uint64_t)(lit == LMB_LIT_IN_DOUBT) << k;

@@ -31,7 +31,7 @@ typedef struct lmb_own_tips {
 } lmb_own_tips;
 #endif
 
-/* The face of a light's map that shows the direction d from the light. Not for suns. */
+/* The face of a map that shows the direction d from its light. Not for suns. */
 static inline int32_t shadow_map_face(const lmb_shadow_map *map, lmb_vec3 d)
 {
     return map->faces == 1 ? 0 : (int32_t)side_of3(d);

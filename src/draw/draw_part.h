@@ -226,12 +226,14 @@ static inline void draw_scale_plane(lmb_draw_plane *p, double by)
     p->y *= by;
 }
 
+#if LMB_DRAW_LANES
 /* The changes of a plane per px, for a kernel. */
 static inline void draw_set_steps(lmb_draw_slope *out, const lmb_draw_plane *p)
 {
     out->x = (float)p->x;
     out->y = (float)p->y;
 }
+#endif
 
 /* A line along its longer axis, `along`; `across` is the other axis. 24.8 of the frame; pixel indices use the same
  * axes. length: along; rise: across, in the same direction. */
