@@ -20,6 +20,13 @@ void lmb_draw_lines_begin(lmb_draw_pass *pass)
     lmb_draw_find_fog(pass);
 }
 
+/* A line along its longer axis; 24.8 of the frame. As shape_way and shape_slope of draw_shape.c. */
+typedef struct line_way {
+    int32_t from_along, from_across, to_along, to_across;
+    int is_steep;
+    int64_t length, rise;
+} line_way;
+
 /* The parts of a line that all of its pixels use. */
 typedef struct line_job {
     const lmb_draw_pass *pass;
@@ -32,6 +39,42 @@ typedef struct line_job {
     int32_t tile_x, tile_y; /* of the values below */
     float n1_at, q_at, d_at;
 } line_job;
+
+static line_way line_way_of(const lmb_draw_pass *pass, const draw_vertex *a, const draw_vertex *b)
+{
+    const int32_t dx = b->x - a->x, dy = b->y - a->y, ax = a->x + pass->middle_x, ay = a->y + pass->middle_y;
+    line_way w = {ax, ay, ax + dx, ay + dy, 0, 0, 0};
+    if ((dy < 0 ? -dy : dy) > (dx < 0 ? -dx : dx)) {
+        const line_way steep = {ay, ax, ay + dy, ax + dx, 1, 0, 0};
+        w = steep;
+    }
+    const int forth = w.to_along > w.from_along;
+    w.length = forth ? (int64_t)w.to_along - w.from_along : (int64_t)w.from_along - w.to_along;
+    w.rise = forth ? (int64_t)w.to_across - w.from_across : (int64_t)w.from_across - w.to_across;
+    return w;
+}
+
+/* As shape_in_diamond. */
+static int line_in_diamond(const line_way *w, int32_t along, int32_t across, int32_t pixel_along, int32_t pixel_across)
+{
+    const int32_t a = along - (pixel_along * 256 + 128), b = across - (pixel_across * 256 + 128);
+    const int32_t sum = (a < 0 ? -a : a) + (b < 0 ? -b : b);
+    return sum < 128 || (sum == 128 && (w->is_steep ? b : a) > 0);
+}
+
+/* As shape_leaves. */
+static int line_leaves(const line_way *w, int32_t pixel_along, int32_t pixel_across)
+{
+    const int32_t middle = pixel_along * 256 + 128;
+    if (line_in_diamond(w, w->to_along, w->to_across, pixel_along, pixel_across)) {
+        return 0;
+    }
+    if (line_in_diamond(w, w->from_along, w->from_across, pixel_along, pixel_across)) {
+        return 1;
+    }
+    return w->to_along > w->from_along ? middle >= w->from_along && middle < w->to_along
+                                       : middle < w->from_along && middle >= w->to_along;
+}
 
 static float line_start(const lmb_draw_plane *p, double x, double y)
 {
@@ -116,7 +159,7 @@ static inline void line_put(line_job *j, int32_t x, int32_t y)
 }
 
 /* As shape_walk. Only pixels near the ends may stay in their diamonds. */
-static void line_walk(line_job *j, const draw_way *w)
+static void line_walk(line_job *j, const line_way *w)
 {
     const lmb_draw_pass *pass = j->pass;
     const int32_t low = mini(w->from_along, w->to_along), high = maxi(w->from_along, w->to_along);
@@ -132,7 +175,7 @@ static void line_walk(line_job *j, const draw_way *w)
     const int back = w->is_steep || w->rise <= 0;
     for (int32_t along = first; along <= last; ++along) {
         const int32_t on = (int32_t)across - (rest == 0 && back), middle = along * 256 + 128;
-        if ((middle - low > 128 && high - middle > 128) || draw_leaves(w, along, on)) {
+        if ((middle - low > 128 && high - middle > 128) || line_leaves(w, along, on)) {
             line_put(j, w->is_steep ? on : along, w->is_steep ? along : on);
         }
         rest += step; /* without branches, which processors mispredict here */
@@ -146,6 +189,19 @@ static void line_walk(line_job *j, const draw_way *w)
 static const uint8_t *line_colour(const lmb_draw_pass *pass, uint32_t i)
 {
     return pass->vertices->colours != NULL ? pass->vertices->colours + 4 * (size_t)i : pass->state->colour;
+}
+
+static void line_set_plane(lmb_draw_slope *slope, const lmb_draw_plane *p)
+{
+    slope->x = (float)p->x;
+    slope->y = (float)p->y;
+}
+
+static void line_scale(lmb_draw_plane *p, double by)
+{
+    p->origin *= by;
+    p->x *= by;
+    p->y *= by;
 }
 
 /* As lmb_draw_line. flat: the vertex of a flat colour. */
@@ -166,11 +222,11 @@ static void line_set(line_job *j, const lmb_draw_pass *pass, const draw_vertex *
     j->n1.y = dy / square;
     if (pass->tests) {
         j->d = j->n1;
-        draw_scale_plane(&j->d, (double)b->d - (double)a->d);
+        line_scale(&j->d, (double)b->d - (double)a->d);
         j->d.origin += (double)a->d;
         j->d_min = minf(a->d, b->d);
         j->d_max = maxf(a->d, b->d);
-        draw_set_steps(&p->d, &j->d);
+        line_set_plane(&p->d, &j->d);
     }
     p->is_even = a->inverse == b->inverse;
     if (!p->is_even) {
@@ -178,10 +234,10 @@ static void line_set(line_job *j, const lmb_draw_pass *pass, const draw_vertex *
         j->q.origin = (double)a->inverse + (j->n1.origin * more + 0.0);
         j->q.x = j->n1.x * more + 0.0;
         j->q.y = j->n1.y * more + 0.0;
-        draw_scale_plane(&j->n1, (double)b->inverse);
-        draw_set_steps(&p->q, &j->q);
+        line_scale(&j->n1, (double)b->inverse);
+        line_set_plane(&p->q, &j->q);
     }
-    draw_set_steps(&p->n1, &j->n1);
+    line_set_plane(&p->n1, &j->n1);
     p->state = pass->state;
     p->swaps = pass->target->colour.format == LMB_BGRA8;
     p->varies = 0;
@@ -209,8 +265,7 @@ int lmb_draw_quick_line(const lmb_draw_pass *pass, uint32_t a, uint32_t b)
     const double dx = to.x * (1.0 / 256.0) - from.x * (1.0 / 256.0), dy = to.y * (1.0 / 256.0) - from.y * (1.0 / 256.0),
                  square = dx * dx + dy * dy;
     if (square > 0.0) {
-        const draw_way w =
-            draw_way_of(from.x + pass->middle_x, from.y + pass->middle_y, to.x - from.x, to.y - from.y, 0);
+        const line_way w = line_way_of(pass, &from, &to);
         line_set(&j, pass, &from, &to, k, square, dx, dy);
         line_walk(&j, &w);
     }

@@ -235,51 +235,6 @@ static inline void draw_set_steps(lmb_draw_slope *out, const lmb_draw_plane *p)
 }
 #endif
 
-/* A line along its longer axis, `along`; `across` is the other axis. 24.8 of the frame; pixel indices use the same
- * axes. length: along; rise: across, in the same direction. */
-typedef struct draw_way {
-    int32_t from_along, from_across, to_along, to_across;
-    int is_steep; /* along is y */
-    int64_t length, rise;
-} draw_way;
-
-/* The line from (x, y) by (dx, dy). `shift` moves it across the longer axis, to the left or up. */
-static inline draw_way draw_way_of(int32_t x, int32_t y, int32_t dx, int32_t dy, int32_t shift)
-{
-    draw_way w = {x, y - shift, x + dx, y + dy - shift, 0, 0, 0};
-    if ((dy < 0 ? -dy : dy) > (dx < 0 ? -dx : dx)) {
-        const draw_way steep = {y, x - shift, y + dy, x + dx - shift, 1, 0, 0};
-        w = steep;
-    }
-    const int forth = w.to_along > w.from_along;
-    w.length = forth ? (int64_t)w.to_along - w.from_along : (int64_t)w.from_along - w.to_along;
-    w.rise = forth ? (int64_t)w.to_across - w.from_across : (int64_t)w.from_across - w.to_across;
-    return w;
-}
-
-/* 1 if the point, shifted a little to the left and less upwards, is in the open diamond of the pixel. */
-static inline int draw_in_diamond(const draw_way *w, int32_t along, int32_t across, int32_t pixel_along,
-                                  int32_t pixel_across)
-{
-    const int32_t a = along - (pixel_along * 256 + 128), b = across - (pixel_across * 256 + 128);
-    const int32_t sum = (a < 0 ? -a : a) + (b < 0 ? -b : b);
-    return sum < 128 || (sum == 128 && (w->is_steep ? b : a) > 0);
-}
-
-/* 1 if the line leaves the diamond of the pixel in which it crosses this column or row. */
-static inline int draw_leaves(const draw_way *w, int32_t pixel_along, int32_t pixel_across)
-{
-    const int32_t middle = pixel_along * 256 + 128;
-    if (draw_in_diamond(w, w->to_along, w->to_across, pixel_along, pixel_across)) {
-        return 0;
-    }
-    if (draw_in_diamond(w, w->from_along, w->from_across, pixel_along, pixel_across)) {
-        return 1;
-    }
-    return w->to_along > w->from_along ? middle >= w->from_along && middle < w->to_along
-                                       : middle < w->from_along && middle >= w->to_along;
-}
-
 /* If pass->fills: fills columns x0 .. x1 and rows y0 .. y1 of the frame, inside the pass, with R G B A. */
 void lmb_draw_rows_fill(const lmb_draw_pass *pass, const uint8_t codes[4], int32_t x0, int32_t x1, int32_t y0,
                         int32_t y1);

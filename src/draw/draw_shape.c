@@ -345,16 +345,60 @@ static void shape_put(shape_run *r, int32_t x, int32_t y)
     r->mask |= (uint64_t)1 << ((y & 7) * LMB_TILE + (x & 7));
 }
 
+/* A line along its longer axis, `along`; `across` is the other axis. 24.8 of the frame; pixel indices use the same
+ * axes. */
+typedef struct shape_way {
+    int32_t from_along, from_across, to_along, to_across;
+    int is_steep; /* along is y */
+} shape_way;
+
+/* 1 if the point, shifted a little to the left and less upwards, is in the open diamond of the pixel. */
+static int shape_in_diamond(const shape_way *w, int32_t along, int32_t across, int32_t pixel_along,
+                            int32_t pixel_across)
+{
+    const int32_t a = along - (pixel_along * 256 + 128), b = across - (pixel_across * 256 + 128);
+    const int32_t sum = (a < 0 ? -a : a) + (b < 0 ? -b : b);
+    return sum < 128 || (sum == 128 && (w->is_steep ? b : a) > 0);
+}
+
+/* 1 if the line leaves the diamond of the pixel in which it crosses this column or row. */
+static int shape_leaves(const shape_way *w, int32_t pixel_along, int32_t pixel_across)
+{
+    const int32_t middle = pixel_along * 256 + 128;
+    const int forth = w->to_along > w->from_along;
+    if (shape_in_diamond(w, w->to_along, w->to_across, pixel_along, pixel_across)) {
+        return 0;
+    }
+    if (shape_in_diamond(w, w->from_along, w->from_across, pixel_along, pixel_across)) {
+        return 1;
+    }
+    return forth ? middle >= w->from_along && middle < w->to_along : middle < w->from_along && middle >= w->to_along;
+}
+
+/* Length of a line along its axis, and rise across it in the same direction. */
+typedef struct shape_slope {
+    int64_t length, rise;
+} shape_slope;
+
+static shape_slope shape_slope_of(const shape_way *w)
+{
+    const int forth = w->to_along > w->from_along;
+    shape_slope s;
+    s.length = forth ? (int64_t)w->to_along - w->from_along : (int64_t)w->from_along - w->to_along;
+    s.rise = forth ? (int64_t)w->to_across - w->from_across : (int64_t)w->from_across - w->to_across;
+    return s;
+}
+
 /* Intersection of the line with the centre line of a pixel: whole pixels across, and the rest in 1 / (256 length) of
  * one. */
 typedef struct shape_cross {
     int64_t across, rest;
 } shape_cross;
 
-static shape_cross shape_cross_at(const draw_way *w, int32_t along)
+static shape_cross shape_cross_at(const shape_way *w, const shape_slope *s, int32_t along)
 {
-    const int64_t whole = 256 * w->length;
-    const int64_t at = w->from_across * w->length + ((int64_t)along * 256 + 128 - w->from_along) * w->rise;
+    const int64_t whole = 256 * s->length;
+    const int64_t at = w->from_across * s->length + ((int64_t)along * 256 + 128 - w->from_along) * s->rise;
     shape_cross c;
     c.across = at / whole;
     c.rest = at % whole;
@@ -366,9 +410,9 @@ static shape_cross shape_cross_at(const draw_way *w, int32_t along)
 }
 
 /* On the border of two pixels: the left one, or the upper one unless the line falls to the right. */
-static int32_t shape_crossed(const draw_way *w, const shape_cross *c)
+static int32_t shape_crossed(const shape_way *w, const shape_slope *s, const shape_cross *c)
 {
-    return (int32_t)c->across - (c->rest == 0 && (w->is_steep || w->rise <= 0));
+    return (int32_t)c->across - (c->rest == 0 && (w->is_steep || s->rise <= 0));
 }
 
 /* The pixels that line_pattern draws. */
@@ -384,11 +428,11 @@ static int shape_is_dashed(const shape_dash *d, int32_t along)
 }
 
 /* The first pixel of the line from `at` on, within three. */
-static int32_t shape_end(const draw_way *w, int32_t at, int32_t step)
+static int32_t shape_end(const shape_way *w, const shape_slope *s, int32_t at, int32_t step)
 {
     for (int i = 0; i < 3; ++i, at += step) {
-        const shape_cross c = shape_cross_at(w, at);
-        if (draw_leaves(w, at, shape_crossed(w, &c))) {
+        const shape_cross c = shape_cross_at(w, s, at);
+        if (shape_leaves(w, at, shape_crossed(w, s, &c))) {
             break;
         }
     }
@@ -396,13 +440,14 @@ static int32_t shape_end(const draw_way *w, int32_t at, int32_t step)
 }
 
 /* A line's dashes, from the end pixels first .. last. Updates the count for the next line. */
-static shape_dash shape_dash_of(const lmb_draw_pass *pass, const draw_way *w, int32_t first, int32_t last)
+static shape_dash shape_dash_of(const lmb_draw_pass *pass, const shape_way *w, int32_t first, int32_t last)
 {
+    const shape_slope s = shape_slope_of(w);
     shape_dash d = {0, 1, *pass->dashed, pass->state->line_repeat, pass->state->line_pattern};
     if (d.pattern == 0xffff) {
         return d;
     }
-    const int32_t low = shape_end(w, first, 1), high = shape_end(w, last, -1);
+    const int32_t low = shape_end(w, &s, first, 1), high = shape_end(w, &s, last, -1);
     d.forth = w->to_along > w->from_along;
     d.from = d.forth ? low : high;
     *pass->dashed += (uint32_t)maxi(high - low + 1, 0);
@@ -410,14 +455,15 @@ static shape_dash shape_dash_of(const lmb_draw_pass *pass, const draw_way *w, in
 }
 
 /* Draws the pixels first .. last along the line, line_px wide. */
-static void shape_walk(shape_run *run, const draw_way *w, int32_t first, int32_t last, const shape_dash *dash)
+static void shape_walk(shape_run *run, const shape_way *w, int32_t first, int32_t last, const shape_dash *dash)
 {
-    const int64_t whole = 256 * w->length, step = 256 * w->rise;
+    const shape_slope s = shape_slope_of(w);
+    const int64_t whole = 256 * s.length, step = 256 * s.rise;
     const int32_t px = run->pass->state->line_px;
-    shape_cross c = shape_cross_at(w, first);
+    shape_cross c = shape_cross_at(w, &s, first);
     for (int32_t along = first; along <= last; ++along) {
-        const int32_t at = shape_crossed(w, &c);
-        if (draw_leaves(w, along, at) && (dash->pattern == 0xffff || shape_is_dashed(dash, along))) {
+        const int32_t at = shape_crossed(w, &s, &c);
+        if (shape_leaves(w, along, at) && (dash->pattern == 0xffff || shape_is_dashed(dash, along))) {
             for (int32_t k = 0; k < px; ++k) {
                 shape_put(run, w->is_steep ? at + k : along, w->is_steep ? along : at + k);
             }
@@ -437,9 +483,15 @@ static void shape_walk(shape_run *run, const draw_way *w, int32_t first, int32_t
 static void shape_trace(const lmb_draw_pass *pass, lmb_draw_shape *shape, const lmb_screen_vertex *a,
                         const lmb_screen_vertex *b)
 {
-    const draw_way w = draw_way_of(a->x_24_8 + pass->middle_x, a->y_24_8 + pass->middle_y, b->x_24_8 - a->x_24_8,
-                                   b->y_24_8 - a->y_24_8, (pass->state->line_px - 1) * 128);
+    const int32_t px = pass->state->line_px, shift = (px - 1) * 128;
+    const int32_t dx = b->x_24_8 - a->x_24_8, dy = b->y_24_8 - a->y_24_8;
+    const int32_t ax = a->x_24_8 + pass->middle_x, ay = a->y_24_8 + pass->middle_y;
     shape_run run = {pass, shape, 0, 0, 0};
+    shape_way w = {ax, ay - shift, ax + dx, ay + dy - shift, 0};
+    if ((dy < 0 ? -dy : dy) > (dx < 0 ? -dx : dx)) {
+        const shape_way steep = {ay, ax - shift, ay + dy, ax + dx - shift, 1};
+        w = steep;
+    }
     const int32_t first = (mini(w.from_along, w.to_along) - 1) >> 8, last = maxi(w.from_along, w.to_along) >> 8;
     const shape_dash dash = shape_dash_of(pass, &w, first, last);
     shape_walk(&run, &w, maxi(first, w.is_steep ? pass->y0 : pass->x0), mini(last, w.is_steep ? pass->y1 : pass->x1),
