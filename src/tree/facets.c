@@ -151,12 +151,12 @@ static float height_over(const lmb_facets *f, int s, lmb_vec3 at)
     return dot3(f->surface[s].normal, sub3(at, f->surface[s].on));
 }
 
-/* Are the middles of surface `of` in these pixels more than `least` in front of surface s? */
-static int are_before(const lmb_facets *f, int of, uint64_t pixels, int s, float least)
+/* Are the middles of surface `of` in these pixels in front of surface s? They may lie `past` m behind it. */
+static int are_before(const lmb_facets *f, int of, uint64_t pixels, int s, float past)
 {
     int before = 1;
     for (; pixels != 0 && before; pixels &= pixels - 1) {
-        before = height_over(f, s, place_of_corner(f, of, lowest_bit_64(pixels))) > least;
+        before = height_over(f, s, place_of_corner(f, of, lowest_bit_64(pixels))) > -past;
     }
     return before;
 }
@@ -172,9 +172,9 @@ static void clip_by_others(lmb_facet *inout, const lmb_facets *f, int s, uint64_
             low = minf(low, height);
             high = maxf(high, height);
         }
-        const float least = SNAPPED * (low - high);
-        if (low < 0.0f && are_before(f, s, pixels, o, least) &&
-            are_before(f, o, f->surface[o].pixels, s, least)) {
+        const float past = SNAPPED * (high - low);
+        if (low < 0.0f && are_before(f, s, pixels, o, past) &&
+            are_before(f, o, f->surface[o].pixels, s, past)) {
             for (int i = 0; i < inout->corners; ++i) {
                 inout->corner[i] = sub3(inout->corner[i], f->surface[o].on);
             }

@@ -250,8 +250,8 @@ static void look_through_gap(through_gap *out, hard_stage *h, double gap, uint64
     }
 }
 
-/* Two rooms with one floor and one roof, a wall of no thickness between them, and a lamp in the first one. Returns the
- * brightest pixel of bounced light at the wall's foot in the second one, relative to the lamp's light 3 m away. */
+/* Two rooms with one floor and one roof, a wall of no thickness between them, and a point light in the first one.
+ * Returns the brightest pixel of bounced light at the wall's foot in the second one, relative to the light 3 m away. */
 static double beside_wall(hard_stage *h, uint64_t seed)
 {
     uint64_t rng = seed * 2654435761u;
