@@ -24,7 +24,7 @@ endif
 B      := $(BUILD)/$(CONFIG)$(if $(filter pixel,$(ROOM)),-pixel)
 
 # Programs for small machines; they print the instructions of a frame.
-LIVE := live baked gouraud torus torus_few
+LIVE := live baked gouraud bounced torus torus_few
 
 # A port sets the compiler, start-up sources, libraries and the command that runs programs (RUN).
 include platform/$(PORT)/port.mk

@@ -104,6 +104,17 @@
 #define LMB_LIVE LMB_TREES
 #endif
 
+/* Chunks of sixteen nodes of a point's cut (lambent/live.h), 64 .. 512; 76 bytes each, in lmb_live_scratch. Full: near
+ * nodes are used whole. Numbers under 512 are for pictures of about 160 x 120 px on small machines: samples of frames
+ * are 16 and 8 px apart, and lmb_live, lmb_lattice and lmb_live_scratch take 2/3, 1/15 and 1/11 of the memory. */
+#ifndef LMB_LIVE_CUT
+#define LMB_LIVE_CUT 512
+#endif
+#define LMB_LIVE_SMALL (LMB_LIVE_CUT < 512)
+#if LMB_LIVE_CUT < 64
+#error "lambent: LMB_LIVE_CUT is too small"
+#endif
+
 /* 0: this build has no fixed-function drawing (lambent/draw.h). Saves 30 KiB of ROM on a Cortex-M4F. */
 #ifndef LMB_DRAW
 #define LMB_DRAW LMB_TREES

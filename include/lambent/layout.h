@@ -13,15 +13,15 @@
 
 #include "config.h"
 
-/* In config.h's order: groups, lights, cut; many lights' cut and active lights; pairs, probes (o), planes (f), views,
- * hull's planes; nodes that are bounded, slots. */
-#define LMB_PASTE_(name, g, l, c, m, n, p, o, f, v, h, w, s) \
-    name##_g##g##_l##l##_c##c##_m##m##_n##n##_p##p##_o##o##_f##f##_v##v##_h##h##_w##w##_s##s
-#define LMB_PASTE(name, g, l, c, m, n, p, o, f, v, h, w, s) LMB_PASTE_(name, g, l, c, m, n, p, o, f, v, h, w, s)
+/* In config.h's order: groups, lights, cut; many lights' cut and active lights; pairs, live cut (x), probes (o), planes
+ * (f), views, hull's planes; nodes that are bounded, slots. */
+#define LMB_PASTE_(name, g, l, c, m, n, p, x, o, f, v, h, w, s) \
+    name##_g##g##_l##l##_c##c##_m##m##_n##n##_p##p##_x##x##_o##o##_f##f##_v##v##_h##h##_w##w##_s##s
+#define LMB_PASTE(name, g, l, c, m, n, p, x, o, f, v, h, w, s) LMB_PASTE_(name, g, l, c, m, n, p, x, o, f, v, h, w, s)
 #define LMB_LAYOUT(name) \
     LMB_PASTE(name, LMB_MAX_GROUPS, LMB_MAX_LIGHTS, LMB_MAX_CUT, LMB_MANY_LIGHTS_CUT, LMB_ACTIVE_LIGHTS, \
-              LMB_GATHER_PAIRS, LMB_MAX_PROBES, LMB_MAX_PLANES, LMB_RELIEF_VIEWS, LMB_HULL_PLANES, LMB_BOUNDS_NODES, \
-              LMB_SLOTS)
+              LMB_GATHER_PAIRS, LMB_LIVE_CUT, LMB_MAX_PROBES, LMB_MAX_PLANES, LMB_RELIEF_VIEWS, LMB_HULL_PLANES, \
+              LMB_BOUNDS_NODES, LMB_SLOTS)
 
 #define lmb_around_gather           LMB_LAYOUT(lmb_around_gather)
 #define lmb_around_scale            LMB_LAYOUT(lmb_around_scale)
@@ -29,6 +29,7 @@
 #define lmb_occluded_tile           LMB_LAYOUT(lmb_occluded_tile)
 #define lmb_bvh_build               LMB_LAYOUT(lmb_bvh_build)
 #define lmb_bvh_init                LMB_LAYOUT(lmb_bvh_init)
+#define lmb_bvh_small_init          LMB_LAYOUT(lmb_bvh_small_init)
 #define lmb_build_check             LMB_LAYOUT(lmb_build_check)
 #define lmb_compose_emission        LMB_LAYOUT(lmb_compose_emission)
 #define lmb_compose_tile            LMB_LAYOUT(lmb_compose_tile)

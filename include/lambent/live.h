@@ -35,13 +35,22 @@
 #include "occlusion.h"
 
 #define LMB_LIVE_NODES  16   /* of a chunk: logical lanes of every backend */
-#define LMB_LIVE_CUT    512  /* chunks of a point's cut */
-#define LMB_LIVE_NEAR   96   /* of these, chunks made for one point, of parts near it */
+#if LMB_LIVE_SMALL /* what each number counts is said below */
+#define LMB_LIVE_NEAR   12
+#define LMB_LIVE_KEPT   2
+#define LMB_LIVE_FACETS 8
+#define LMB_LIVE_PICKS  64
+#define LMB_LIVE_STACK  64
+#define LMB_LIVE_KNOWN  64
+#else
+#define LMB_LIVE_NEAR   96   /* chunks of a cut that are made for one point, of parts near it */
 #define LMB_LIVE_KEPT   128  /* such chunks that are kept for other points */
 #define LMB_LIVE_FACETS 32   /* facets of near parts that are kept */
-#define LMB_LIVE_STRATA 64   /* maximum number of segments of a point */
 #define LMB_LIVE_PICKS  512  /* maximum number of segments of a steady point */
 #define LMB_LIVE_STACK  256  /* BVH nodes on the stack */
+#define LMB_LIVE_KNOWN  64   /* triangles of small nodes (lmb_bvh.small) that are kept */
+#endif
+#define LMB_LIVE_STRATA 64   /* maximum number of segments of a point */
 #define LMB_LIVE_LAST   4    /* triangles that blocked many segments recently */
 #define LMB_LIVE_SKY    64   /* maximum number of chunks of a sky */
 
@@ -178,8 +187,8 @@ typedef struct lmb_live_branch {
     uint32_t node;
 } lmb_live_branch;
 
-/* Scratch, one a thread: 425 KiB. The contents are undefined between calls, except `full`, `segments` and `pairs`,
- * which are added to until you zero them, and `whole`, `seen`, `sky_...`, which are those of the last point. */
+/* Scratch, one a thread: 428 KiB, or 37 with LMB_LIVE_CUT 64. Undefined between calls, except `full`, `segments` and
+ * `pairs`, which are added to until you zero them, and `whole`, `seen`, `sky_...`, those of the last point. */
 typedef struct lmb_live_scratch {
     lmb_live_chunk near[LMB_LIVE_KEPT + LMB_LIVE_NEAR]; /* kept ones first */
     float value[LMB_LIVE_CUT][LMB_LIVE_NODES]; /* unoccluded light of each node; 0 if the parts are used */
@@ -207,6 +216,7 @@ typedef struct lmb_live_scratch {
     uint32_t met[2][2][LMB_BOXES]; /* segments that meet the boxes of the last two nodes, a bit each */
     uint32_t last[LMB_LIVE_LAST]; /* index in the BVH, plus 1: triangles that blocked many segments recently; tested
                                      first */
+    lmb_bvh_triangle known[LMB_LIVE_KNOWN]; /* of small nodes; id 0: none */
     lmb_target window; /* used by src/frame */
     uint32_t full;     /* points whose cut was full: nodes near them were used whole */
     uint64_t segments, pairs;

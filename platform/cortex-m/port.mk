@@ -50,6 +50,7 @@ PORT_CFLAGS  := $(core_$(CORE)) -mthumb $(BARE_CFLAGS)
 # Limits: 256 KiB for the demo, 160 for live programs; the golden suite, built with the host's settings, may use more.
 $(B)/demo: RAM_BYTES = 262144
 $(addprefix $(B)/,live baked gouraud): RAM_BYTES = 163840
+$(B)/bounced: RAM_BYTES = 327680
 $(B)/baked $(B)/gouraud: ROM_BYTES = 1048576
 
 # Every instruction takes 1 ns (count.h).

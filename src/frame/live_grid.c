@@ -17,7 +17,7 @@
 #define STEEPER   16.0f /* and if the change^2 of its light is more than this times split x mean^2 */
 #define LEAST     0.02f /* min of p (1 - p): shares of 0 and 1 are uncertain too */
 #define FLAT_TURN 1e-3f /* max difference between a flat tile's normals and the plane's, each axis */
-#define ALL_SAMPLES 0xffffu /* of a tile */
+#define ALL_SAMPLES ((1u << GRID_SAMPLES) - 1) /* of a tile */
 #define SPLIT     800.0f /* over strata^2: sampling errors of shadows should not cause divisions */
 
 /* --- layout ------------------------------------------------------------------------------------------------------- */
@@ -155,13 +155,15 @@ void lmb_live_grid_put_even(const live_grid *g, const lmb_live_sample *first, in
 
 /* --- requested samples -------------------------------------------------------------------------------------------- */
 
-/* Samples that a tile's own cell requests: a mask of 5 x 5 samples, including the right and lower edges. */
+/* Samples that a tile's own cell requests: a mask of GRID_SQUARE x GRID_SQUARE samples, including the right and lower
+ * edges. */
 static uint32_t asks_of(const live_grid_tile *t, int32_t level)
 {
+    enum { HALF = GRID_SIDE > 1 ? GRID_SIDE / 2 : 1 };
     uint32_t out = 0;
     if (level == 2 && t->divided) {
-        for (int i = 0; i < 25; i += 2) {
-            out |= (uint32_t)(i / 5 % 2 == 0 && i % 5 % 2 == 0) << i;
+        for (int i = 0; i < GRID_SQUARE * GRID_SQUARE; ++i) {
+            out |= (uint32_t)(i / GRID_SQUARE % HALF == 0 && i % GRID_SQUARE % HALF == 0) << i;
         }
     }
     for (int part = 0; part < 4 && level == 3; ++part) {
@@ -172,12 +174,12 @@ static uint32_t asks_of(const live_grid_tile *t, int32_t level)
     return out;
 }
 
-/* Mask of the 5 x 5 samples that lie in the neighbour tile `right` columns and `down` rows on. */
+/* Mask of a square's samples that lie in the neighbour tile `right` columns and `down` rows on. */
 static uint32_t in_tile(uint32_t square, int32_t right, int32_t down)
 {
     uint32_t out = 0;
-    for (int i = 0; i < 25; ++i) {
-        const int32_t x = i % 5 - right * GRID_SIDE, y = i / 5 - down * GRID_SIDE;
+    for (int i = 0; i < GRID_SQUARE * GRID_SQUARE; ++i) {
+        const int32_t x = i % GRID_SQUARE - right * GRID_SIDE, y = i / GRID_SQUARE - down * GRID_SIDE;
         if ((square >> i & 1u) && x >= 0 && x < GRID_SIDE && y >= 0 && y < GRID_SIDE) {
             out |= 1u << (y * GRID_SIDE + x);
         }
@@ -194,8 +196,8 @@ static uint32_t at_edge(const live_grid *g, uint32_t square, int32_t column, int
     if (right >= GRID_SIDE && low >= GRID_SIDE) {
         return square;
     }
-    for (int i = 0; i < 25; ++i) {
-        out |= (square >> i & 1u) << (mini(i / 5, low) * 5 + mini(i % 5, right));
+    for (int i = 0; i < GRID_SQUARE * GRID_SQUARE; ++i) {
+        out |= (square >> i & 1u) << (mini(i / GRID_SQUARE, low) * GRID_SQUARE + mini(i % GRID_SQUARE, right));
     }
     return out;
 }
@@ -451,7 +453,7 @@ void lmb_live_grid_divide(const live_grid *g, int32_t row, int32_t level)
     for (int32_t column = 0; column < g->columns && level == 0 && row % 4 == 0; column += 4) {
         divide_coarse(g, column, row);
     }
-    for (int32_t column = 0; column < g->columns && level == 1; column += 2) {
+    for (int32_t column = 0; column < g->columns && level == 1 && GRID_STEP < LMB_TILE; column += 2) {
         if (grid_tile(g, column, row)->plain == GRID_WHOLE) {
             continue;
         }
@@ -462,7 +464,7 @@ void lmb_live_grid_divide(const live_grid *g, int32_t row, int32_t level)
             }
         }
     }
-    for (int32_t i = 0; i < 2 * g->columns && level == 2; ++i) {
+    for (int32_t i = 0; i < 2 * g->columns && level == 2 && GRID_STEP < LMB_TILE / 2; ++i) {
         const int32_t column = i % g->columns, down = row + i / g->columns;
         if (down < g->rows && grid_tile(g, column, down)->divided) {
             grid_tile(g, column, down)->parts =

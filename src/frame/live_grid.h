@@ -13,8 +13,9 @@
 #include "../lane/kernels.h"
 
 enum {
-    GRID_STEP = 2,  /* px between the closest samples */
+    GRID_STEP = LMB_LIVE_SMALL ? LMB_TILE : 2, /* px between the closest samples */
     GRID_SIDE = LMB_TILE / GRID_STEP, /* samples along a tile's side */
+    GRID_SQUARE = GRID_SIDE + 1, /* the same with the next tile's first one */
     GRID_SAMPLES = GRID_SIDE * GRID_SIDE,
     GRID_COARSE = 2 * LMB_TILE, /* px between the first samples */
     GRID_LEVELS = 4, /* steps of 16, 8, 4 and 2 px */

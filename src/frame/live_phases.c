@@ -35,6 +35,7 @@ enum { ROWS = 2, PIECE_UNITS = 64 };
 /* px each way within which a pixel that no sample explains needs a lit pixel */
 #define MAX_REACH_PX 3
 #define FINE_REACH_PX 2 /* with more segments than draft has */
+#define SMALL_REACH_PX 5 /* with LMB_LIVE_SMALL */
 
 static live_grid grid_of(const lmb_render *r) { return lmb_live_grid_of(&r->frame.lattice, r->frame.live->strata); }
 
@@ -178,7 +179,7 @@ NOINLINE lmb_status take_row(const lmb_render *r, lmb_band_scratch *s, const liv
 
 static lmb_status take_surfaces(const lmb_render *r, lmb_band_scratch *s, const live_grid *g, int32_t row)
 {
-    const lmb_status status = lmb_render_view_band(r, &s->live->window, &r->frame.eye, row);
+    const lmb_status status = lmb_render_view_strip(r, &s->live->window, row);
     return status == LMB_OK ? take_row(r, s, g, row) : status;
 }
 
@@ -401,7 +402,9 @@ static lmb_status light_left(lmb_irradiance *inout, const lmb_render *r, lmb_ban
     lmb_status status = LMB_OK;
     sources from;
     set_sources(&from, g, &s->tile, inout);
-    from.reach = r->frame.live->strata > LMB_LIVE_STRATA / 2 ? FINE_REACH_PX : MAX_REACH_PX;
+    from.reach = LMB_LIVE_SMALL                                  ? SMALL_REACH_PX
+                 : r->frame.live->strata > LMB_LIVE_STRATA / 2 ? FINE_REACH_PX
+                                                               : MAX_REACH_PX;
     for (uint64_t bits = left; bits != 0 && status == LMB_OK; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
         if (!(around_of(&from, k).sum > 0.0f)) {

@@ -67,6 +67,13 @@ static int has_live(const lmb_frame *f)
            f->scratch->live != NULL;
 }
 
+/* Would calls that take no small BVH get one? */
+static int has_wrong_bvh(const lmb_frame *f)
+{
+    return f->bvh.small != NULL && requires_full_bvh(f) &&
+           (!requires_live(f) || f->many_lights != NULL || lmb_scene_is_glossy(f->scene));
+}
+
 lmb_status lmb_render_check(const lmb_frame *f)
 {
     if (f->kernels == NULL || f->scene == NULL || f->scratch == NULL || f->show < LMB_SHOW_FULL ||
@@ -88,7 +95,7 @@ lmb_status lmb_render_check(const lmb_frame *f)
         (f->bounces > 1 && requires_bounce(f) && !reflects_again(f))) {
         return LMB_ERR_ARG;
     }
-    if (f->gather_step != 1 && !(has_lattice(f) && has_live(f))) {
+    if ((f->gather_step != 1 && !(has_lattice(f) && has_live(f))) || has_wrong_bvh(f)) {
         return LMB_ERR_ARG;
     }
     if (f->scene->light_count > LMB_MAX_LIGHTS) {

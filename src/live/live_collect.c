@@ -41,7 +41,10 @@ int32_t lmb_live_side(uint32_t faces, int32_t size)
 }
 
 /* One node for each first point, a quarter more for inner nodes, and padding to start each level on a chunk. */
-static uint64_t chunks_of(uint64_t blocks) { return blocks / LMB_LIVE_NODES * 5 / 4 + 16; }
+static uint64_t chunks_of(uint64_t blocks)
+{
+    return LMB_LIVE_SMALL ? blocks / LMB_LIVE_NODES + 4 : blocks / LMB_LIVE_NODES * 5 / 4 + 16;
+}
 
 static uint64_t bytes_of(uint32_t faces, int32_t side, uint32_t elements)
 {

@@ -13,7 +13,7 @@
 #if LMB_LIVE
 
 enum {
-    DEEPEST = 3, /* divisions by 4 of a block's side, down to 1/16 of a texel */
+    DEEPEST = LMB_LIVE_SMALL ? 1 : 3, /* divisions by 4 of a block's side, down to 1/16 of a texel, or to a texel */
     PART_BITS = 10
 };
 
@@ -405,6 +405,9 @@ void lmb_live_forget(lmb_live_scratch *s)
     }
     for (int i = 0; i < LMB_LIVE_FACETS; ++i) {
         s->facet[i].id = 0;
+    }
+    for (int i = 0; i < LMB_LIVE_KNOWN; ++i) {
+        s->known[i].id = 0;
     }
     s->number = 0;
 }

@@ -69,7 +69,8 @@ uint32_t lmb_live_block_on(const lmb_live_block *block, const lmb_live_face *fac
 static inline int32_t live_blocks(const lmb_live_face *f) { return (f->size + f->each - 1) / f->each; }
 
 enum { CACHE_LINE = 64 /* bytes: an alignment of memory */ };
-enum { LIVE_SURFACES = 64 /* slots for the other surfaces of 8 x 8 blocks; after the last point, a dark one */ };
+/* Slots for the other surfaces of 8 x 8 blocks; after the last point, a dark one. */
+enum { LIVE_SURFACES = LMB_LIVE_SMALL ? 24 : 64 };
 
 /* Tiles of 8 x 8 blocks in a face of `side` x `side` blocks. */
 static inline size_t live_tiles(int32_t side)

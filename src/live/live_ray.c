@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "../lane/kernels.h"
+#include "../occlusion/small.h"
 #include "../occlusion/traversal.h"
 #include "../raster/resolve.h"
 
@@ -46,9 +47,18 @@ static inline float noise_of(const lmb_live_receiver *receiver, lmb_vec3 a, lmb_
            LMB_NOISE_TRIANGLE * (largest3(sub3(a, at)) + largest3(sub3(b, at)) + largest3(sub3(c, at)));
 }
 
+static lmb_vec3 small_corner(const lmb_bvh *b, const uint16_t side[3])
+{
+    return vec3(lmb_small_side(b, 0, side[0]), lmb_small_side(b, 1, side[1]), lmb_small_side(b, 2, side[2]));
+}
+
 /* Bounds noise_of all triangles: rounding keeps the order of distances, and the root's boxes contain all corners. */
 static float max_noise(const lmb_bvh *bvh, const lmb_live_receiver *receiver)
 {
+    if (bvh->small != NULL) {
+        const lmb_vec3 from = small_corner(bvh, bvh->small->low), to = small_corner(bvh, bvh->small->high);
+        return maxf(noise_of(receiver, from, from, from), noise_of(receiver, to, to, to));
+    }
     const lmb_boxes *root = &bvh->node[0];
     lmb_vec3 low = vec3(root->low[0][0], root->low[1][0], root->low[2][0]),
              high = vec3(root->high[0][0], root->high[1][0], root->high[2][0]);
@@ -126,13 +136,24 @@ NOINLINE uint64_t standing(const traversal *w, uint32_t id, const lmb_cross_job 
     return out;
 }
 
+/* A triangle of the BVH. Those of small nodes are made from the scene; walls are tested for most points. */
+static const lmb_bvh_triangle *triangle_at(const traversal *w, uint32_t triangle)
+{
+    if (w->bvh->small == NULL) {
+        return &w->bvh->triangle[triangle];
+    }
+    const uint32_t id = w->bvh->small_id[triangle];
+    lmb_bvh_triangle *t = &w->scratch->known[id % LMB_LIVE_KNOWN];
+    return (t->id & ~LMB_BVH_MASKED) == id || lmb_small_triangle(t, w->bvh->scene, id) ? t : NULL;
+}
+
 static void test_triangle(traversal *w, uint32_t triangle, uint64_t asked)
 {
-    const lmb_bvh_triangle *t = &w->bvh->triangle[triangle];
-    const uint32_t id = t->id & ~LMB_BVH_MASKED;
+    const lmb_bvh_triangle *t = triangle_at(w, triangle);
+    const uint32_t id = t != NULL ? t->id & ~LMB_BVH_MASKED : 0;
     lmb_cross_job job;
     aspect a;
-    if (id == w->receiver->id || !plane_of(&a, &job, w, t)) {
+    if (t == NULL || id == w->receiver->id || !plane_of(&a, &job, w, t)) {
         return;
     }
     /* Most triangles that segments come near are walls on which they end. */
@@ -150,13 +171,13 @@ static void test_triangle(traversal *w, uint32_t triangle, uint64_t asked)
 }
 
 /* Triangles that block at least MUCH segments are tested first from then on, which changes no result. */
-static void test_leaf(traversal *w, const lmb_boxes *node, int i, uint64_t met)
+static void test_leaf(traversal *w, uint32_t first, uint32_t count, uint64_t met)
 {
-    for (uint32_t k = 0; k < node->count[i] && (w->left & met) != 0; ++k) {
+    for (uint32_t k = 0; k < count && (w->left & met) != 0; ++k) {
         const uint64_t before = w->left;
-        test_triangle(w, node->first[i] + k, w->left & met);
+        test_triangle(w, first + k, w->left & met);
         if (count_bits_64(before & ~w->left) >= MUCH) {
-            traversal_remember(w->scratch->last, LMB_LIVE_LAST, node->first[i] + k);
+            traversal_remember(w->scratch->last, LMB_LIVE_LAST, first + k);
         }
     }
 }
@@ -168,7 +189,7 @@ static void test_leaves(traversal *w)
 {
     for (uint32_t boxes = w->leaves; boxes != 0 && w->left != 0; boxes &= boxes - 1) {
         const int i = lowest_bit(boxes);
-        test_leaf(w, w->last, i, both(w->scratch->met[w->own], i));
+        test_leaf(w, w->last->first[i], w->last->count[i], both(w->scratch->met[w->own], i));
     }
     w->leaves = 0;
 }
@@ -216,11 +237,102 @@ static void test_node(traversal *w, uint32_t at, uint64_t asked)
     w->leaves = leaves;
 }
 
+/* --- small nodes -------------------------------------------------------------------------------------------------- */
+
+/* The steps of the grid that all segments span. Segments outside a box on one axis do not meet it. */
+typedef struct ray_span {
+    int32_t low[3], high[3];
+} ray_span;
+
+enum { SPAN_SPARE = 2 /* steps: a step is larger than rounding */ };
+
+static ray_span span_of_rays(const traversal *w)
+{
+    const lmb_bvh *b = w->bvh;
+    const lmb_live_rays *r = &w->scratch->rays;
+    const float at[3] = {r->segments.at.x, r->segments.at.y, r->segments.at.z};
+    ray_span out;
+    for (int h = 0; h < 3; ++h) {
+        float low = 0.0f, high = 0.0f;
+        for (uint64_t bits = w->left; bits != 0; bits &= bits - 1) {
+            const float to = r->to[h][lowest_bit_64(bits)];
+            low = minf(low, to);
+            high = maxf(high, to);
+        }
+        const float per = 1.0f / b->small_step[h], from = at[h] - b->small_low[h];
+        out.low[h] = (int32_t)clampf((from + low) * per, 0.0f, 65535.0f) - SPAN_SPARE;
+        out.high[h] = (int32_t)clampf((from + high) * per, 0.0f, 65535.0f) + SPAN_SPARE;
+    }
+    return out;
+}
+
+static inline int is_outside_span(const ray_span *s, const lmb_small_node *n)
+{
+    return n->low[0] > s->high[0] || n->high[0] < s->low[0] || n->low[1] > s->high[1] || n->high[1] < s->low[1] ||
+           n->low[2] > s->high[2] || n->high[2] < s->low[2];
+}
+
+/* Narrows a segment's range to that between two sides. Returns 0 if nothing is left. */
+static inline int ray_slab(float *from, float *to, float low, float high, float per)
+{
+    const float a = low * per, b = high * per, enter = a > b ? b : a, leave = a > b ? a : b;
+    *from = enter > *from ? enter : *from;
+    *to = leave < *to ? leave : *to;
+    return *from <= *to * 1.0000010f;
+}
+
+/* Of 32 segments from `first` on, the asked ones that meet a box: as live_boxes. low, high: from the receiver. */
+static uint32_t rays_that_meet(const lmb_segments *s, int first, uint32_t asked, lmb_vec3 low, lmb_vec3 high)
+{
+    uint32_t out = 0;
+    for (uint32_t bits = asked; bits != 0; bits &= bits - 1) {
+        const int k = first + lowest_bit(bits);
+        float from = 0.0f, to = 1.0f;
+        if (ray_slab(&from, &to, low.x, high.x, s->per[0][k]) && ray_slab(&from, &to, low.y, high.y, s->per[1][k]) &&
+            ray_slab(&from, &to, low.z, high.z, s->per[2][k])) {
+            out |= bits & (~bits + 1);
+        }
+    }
+    return out;
+}
+
+static uint64_t rays_in_node(const traversal *w, const lmb_small_node *n, uint64_t asked)
+{
+    const lmb_segments *s = &w->scratch->rays.segments;
+    const lmb_vec3 low = sub3(small_corner(w->bvh, n->low), s->at), high = sub3(small_corner(w->bvh, n->high), s->at);
+    const uint32_t one = (uint32_t)asked != 0 ? rays_that_meet(s, 0, (uint32_t)asked, low, high) : 0,
+                   other = asked >> 32 != 0 ? rays_that_meet(s, 32, (uint32_t)(asked >> 32), low, high) : 0;
+    return (uint64_t)other << 32 | one;
+}
+
+static void test_small_nodes(traversal *w)
+{
+    lmb_live_branch *waiting = w->scratch->waiting;
+    const ray_span all = span_of_rays(w);
+    waiting[0].rays = w->left;
+    waiting[0].node = 0;
+    w->waiting = 1;
+    while (w->waiting > 0 && w->left != 0) {
+        const lmb_live_branch next = waiting[--w->waiting];
+        const lmb_small_node *node = &w->bvh->small[next.node];
+        const uint64_t asked = next.rays & w->left;
+        const uint64_t met = asked == 0 || is_outside_span(&all, node) ? 0 : rays_in_node(w, node, asked);
+        if (met != 0 && node->count > 0) {
+            test_leaf(w, node->first, node->count, met);
+        } else if (met != 0) {
+            waiting[w->waiting].rays = met;
+            waiting[w->waiting++].node = node->first;
+            waiting[w->waiting].rays = met;
+            waiting[w->waiting++].node = next.node + 1;
+        }
+    }
+}
+
 uint64_t lmb_live_blocked(const lmb_kernels *kernels, lmb_live_scratch *scratch, const lmb_bvh *bvh,
                           const lmb_live_receiver *receiver, uint64_t asked)
 {
     traversal w = {kernels, bvh, scratch, receiver, asked, 0.0f, 0, 0, NULL, 0};
-    if (bvh == NULL || bvh->node_count == 0 || asked == 0) {
+    if (bvh == NULL || (bvh->node_count == 0 && bvh->small_count == 0) || asked == 0) {
         return 0;
     }
     w.noise = max_noise(bvh, receiver);
@@ -229,6 +341,10 @@ uint64_t lmb_live_blocked(const lmb_kernels *kernels, lmb_live_scratch *scratch,
         if (triangle != 0 && triangle <= bvh->triangle_count) {
             test_triangle(&w, triangle - 1, w.left);
         }
+    }
+    if (bvh->small != NULL) {
+        test_small_nodes(&w);
+        return asked & ~w.left;
     }
     if (w.left != 0) {
         test_node(&w, 0, w.left);

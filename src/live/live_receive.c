@@ -161,6 +161,9 @@ lmb_status lmb_live_receive(float light[3], const lmb_kernels *kernels, lmb_live
     for (int i = 0; i < LMB_LIVE_FACETS; ++i) {
         s->facet[i].id = 0;
     }
+    for (int i = 0; i < LMB_LIVE_KNOWN; ++i) {
+        s->known[i].id = 0;
+    }
     s->keeps = 0;
     return light_receiver(light, kernels, s, live, bvh, receiver);
 }

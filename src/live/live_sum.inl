@@ -128,6 +128,10 @@ static void KERNEL(live_values)(lmb_live_scratch *s, const lmb_live *live, const
         uint32_t near = 0;
         for (int i = 0; i < LMB_LIVE_NODES; i += LANES) {
             uint32_t bits;
+            if (LANES == 1 && (asked >> i & 1u) == 0) {
+                s->value[k][i] = 0.0f;
+                continue;
+            }
             const lane value = live_nodes(&bits, s->chunk[k], i, job);
             near |= bits << i;
             lane_store(s->value[k] + i, lane_keep(mask_of_bits(asked >> i & (~0u >> (32 - LANES))), value));
@@ -225,7 +229,7 @@ static float KERNEL(live_sums)(float light[3], lmb_live_scratch *s)
         all += s->sum[k];
         for (int i = 0; i < LMB_LIVE_NODES / LANES && s->sum[k] > 0.0f; ++i) {
             const lane value = lane_load(s->value[k] + i * LANES);
-            for (int h = 0; h < 3; ++h) {
+            for (int h = 0; h < 3 && (LANES > 1 || s->value[k][i] > 0.0f); ++h) {
                 sum[h][i] = lane_add(sum[h][i], lane_mul(value, lane_load(c->colour[h] + i * LANES)));
             }
         }
@@ -533,13 +537,20 @@ static uint32_t KERNEL(live_boxes)(uint32_t out[2][LMB_BOXES], const lmb_segment
     return any;
 }
 
+/* The first ray to test, from ray k on; LMB_TILE_PIXELS: there is none. A single lane skips rays that are not asked. */
+static inline int live_next(uint64_t asked, int k)
+{
+    const uint64_t left = k < LMB_TILE_PIXELS ? asked >> k : 0;
+    return left == 0 ? LMB_TILE_PIXELS : LANES == 1 ? k + lowest_bit_64(left) : k;
+}
+
 /* Returns the requested rays that end beyond a triangle's plane. */
 static uint64_t KERNEL(live_beyond)(float (*to)[LMB_TILE_PIXELS], uint64_t asked, const lmb_cross_job *job)
 {
     const lane3 n = lane3_of(job->normal);
     const lane beyond = lane_splat(job->beyond);
     uint64_t out = 0;
-    for (int k = 0; k < LMB_TILE_PIXELS && asked >> k != 0; k += LANES) {
+    for (int k = live_next(asked, 0); k < LMB_TILE_PIXELS; k = live_next(asked, k + LANES)) {
         lane3 d;
         d.x = lane_load(to[0] + k);
         d.y = lane_load(to[1] + k);
@@ -555,7 +566,7 @@ static uint64_t KERNEL(live_crossed)(float (*to)[LMB_TILE_PIXELS], uint64_t aske
     const lane3 e0 = lane3_of(job->edge[0]), e1 = lane3_of(job->edge[1]), e2 = lane3_of(job->edge[2]);
     const lane outer = lane_splat(0.0f - job->slack);
     uint64_t out = 0;
-    for (int k = 0; k < LMB_TILE_PIXELS && asked >> k != 0; k += LANES) {
+    for (int k = live_next(asked, 0); k < LMB_TILE_PIXELS; k = live_next(asked, k + LANES)) {
         lane3 d;
         d.x = lane_load(to[0] + k);
         d.y = lane_load(to[1] + k);

@@ -16,6 +16,7 @@
 #include "../raster/resolve.h"
 #include "../raster/triangle.h"
 #include "build.h"
+#include "small.h"
 #include "traversal.h"
 
 #if LMB_TREES
@@ -515,6 +516,9 @@ static void grow_nodes(lmb_bvh *b, item_span *items)
 
 lmb_status lmb_bvh_build(lmb_bvh *inout, const lmb_scene *scene)
 {
+    if (LMB_LIVE && inout != NULL && inout->small != NULL && scene != NULL) {
+        return lmb_small_build(inout, scene);
+    }
     if (inout == NULL || inout->triangle == NULL || inout->node == NULL || scene == NULL) {
         return LMB_ERR_ARG;
     }
