@@ -1,5 +1,5 @@
-# live.sh: frames of the demo with moving light, in 160 KiB of RAM on a Cortex-M4F under qemu and here: checks for equal
-# pictures, and prints instructions, ROM and RAM of each. MAKE BUILD TOOL in the environment. Without cross compiler or
+# live.sh: frames of the demo with moving light, in 160 KiB of RAM on a Cortex-M4F under qemu and here, and in 320 KiB
+# with bounced light of which nothing is baked: checks for equal pictures, and prints instructions, ROM and RAM of each. MAKE BUILD TOOL in the environment. Without cross compiler or
 # qemu: as tiny.sh.
 . tests/scripts/checks.sh
 
@@ -49,4 +49,30 @@ bound "direct light" "$(taken live)" 70000
 bound "baked light on top of it" $(($(taken baked) - $(taken live))) 25000
 bound "light at corners" "$(taken gouraud)" 13000
 bound "light at corners, where the light stands still" "$(awk '/^instructions / { print $NF }' "$there/gouraud.out")" 6200
+
+# Bounced light with occlusion, lamp and object moving, nothing baked: a build of its own, with LMB_LIVE_CUT 64.
+small='-DLMB_LIVE_CUT=64'
+bare='-DLMB_TRANSFER=0 -DLMB_PROBES=0 -DLMB_RELIEF=0 -DLMB_MIXED=0 -DLMB_VOXELS=0 -DLMB_PLAN=0 -DLMB_MAX_CUT=6'
+bare="$bare -DLMB_MANY_LIGHTS_CUT=16"
+small_here=$BUILD/plain/small/tiny small_there=$BUILD/cortex-m/small/tiny
+check "bounced light for this machine" $MAKE PORT=host CONFIG=tiny BUILD="$BUILD/plain/small" ONE_UNIT=1 \
+    CFLAGS="-O1 $plain $small" "$small_here/bounced"
+make_small() { $MAKE "$@" PORT=cortex-m CONFIG=tiny BUILD="$BUILD/cortex-m/small" CFLAGS="-O2 $small $bare" LDFLAGS=; }
+check "bounced light for a Cortex-M4F" make_small "$small_there/bounced"
+[ $failed -eq 0 ] || finish
+"$small_here/bounced" >"$small_here/bounced.out"
+check "bounced: exit status here: $?" test $? -eq 0
+make_small run-bounced >"$small_there/bounced.out"
+check "bounced: exit status on the Cortex-M4F: $?" test $? -eq 0
+sed 's/^/  /' "$small_there/bounced.out"
+arm-none-eabi-size "$small_there/bounced" | awk 'NR == 2 { print "  rom " $1 + $2 " bytes" }'
+for i in 0 1 2; do
+    hash_here=$(awk -v name="demo-bounced-$i" '$1 == name { print $2 }' "$small_here/bounced.out")
+    hash_there=$(awk -v name="demo-bounced-$i" '$1 == name { print $2 }' "$small_there/bounced.out")
+    check "bounced, frame $i: hashes differ: $hash_here here, $hash_there there" \
+        test -n "$hash_here" -a "$hash_here" = "$hash_there"
+done
+for added in $(sed -n 's/^thousands.* added //p' "$small_there/bounced.out"); do
+    bound "bounced light on top of direct light" "$((added * 1000))" 260000
+done
 finish
