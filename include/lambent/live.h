@@ -35,7 +35,7 @@
 #include "occlusion.h"
 
 #define LMB_LIVE_NODES  16   /* of a chunk: logical lanes of every backend */
-#if LMB_LIVE_SMALL /* what each number counts is said below */
+#if LMB_LIVE_SMALL /* the other branch explains each number */
 #define LMB_LIVE_NEAR   12
 #define LMB_LIVE_KEPT   2
 #define LMB_LIVE_FACETS 8
@@ -187,8 +187,9 @@ typedef struct lmb_live_branch {
     uint32_t node;
 } lmb_live_branch;
 
-/* Scratch, one a thread: 428 KiB, or 37 with LMB_LIVE_CUT 64. Undefined between calls, except `full`, `segments` and
- * `pairs`, which are added to until you zero them, and `whole`, `seen`, `sky_...`, those of the last point. */
+/* Scratch, one a thread: 428 KiB, or 37 with LMB_LIVE_CUT 64. The contents are undefined between
+ * calls, except `full`, `segments` and `pairs`, to which calls add until you zero them, and `whole`, `seen` and
+ * `sky_...`, which are those of the last point. */
 typedef struct lmb_live_scratch {
     lmb_live_chunk near[LMB_LIVE_KEPT + LMB_LIVE_NEAR]; /* kept ones first */
     float value[LMB_LIVE_CUT][LMB_LIVE_NODES]; /* unoccluded light of each node; 0 if the parts are used */

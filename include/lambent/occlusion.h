@@ -130,10 +130,11 @@ size_t lmb_bvh_bytes(uint32_t n);
 lmb_status lmb_bvh_init(lmb_bvh *out, uint32_t n, void *memory, size_t bytes);
 
 /* lmb_bvh_small_bytes: memory for n <= 65,535 triangles with small nodes; 0 for other numbers. 10 bytes each and 2 KiB.
- * lmb_bvh_small_init: lay out such a BVH. Only frames of LMB_GATHER_LIVE and lmb_live_receive take it: others find
- * nothing that blocks. The results are those of large nodes. lmb_bvh_build takes an eighth of the instructions. With
- * many lanes segments are slower, because triangles are read from the scene. Returns LMB_OK, LMB_ERR_ARG,
- * LMB_ERR_ALIGN or LMB_ERR_CAPACITY (bytes). Both are missing in builds without live.h. */
+ * lmb_bvh_small_init: lay out such a BVH. Frames of LMB_GATHER_LIVE and lmb_live_receive take it; other calls find
+ * nothing that blocks. Bounced light is that of large nodes in scenes up to 1 km from the origin. Frames do not trace
+ * lit pixels that shadow maps leave unsure, so sealed rooms may show lit pixels. lmb_bvh_build takes an eighth of the
+ * instructions. With many lanes segments are slower, because triangles are read from the scene. Returns LMB_OK,
+ * LMB_ERR_ARG, LMB_ERR_ALIGN or LMB_ERR_CAPACITY (bytes). Both are missing in builds without live.h. */
 size_t lmb_bvh_small_bytes(uint32_t n);
 lmb_status lmb_bvh_small_init(lmb_bvh *out, uint32_t n, void *memory, size_t bytes);
 

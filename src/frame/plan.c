@@ -94,6 +94,11 @@ static void plan_bvh(planner *p)
     const lmb_frame *f = &p->r->frame;
     lmb_plan_row *row = &p->out->row[LMB_PLAN_BVH];
     row->bytes = f->bvh.triangle_cap > 0 ? (uint64_t)lmb_bvh_bytes(f->bvh.triangle_cap) : 0;
+#if LMB_LIVE
+    if (f->bvh.small != NULL) {
+        row->bytes = (uint64_t)lmb_bvh_small_bytes(f->bvh.triangle_cap);
+    }
+#endif
     if (!requires_bvh(f)) {
         leave_out(p, LMB_PLAN_BVH, f->show == LMB_SHOW_DIRECT ? LMB_WHY_NOT_SHOWN : LMB_WHY_NOT_ASKED);
         return;

@@ -58,7 +58,7 @@ static int same_bvh(const lmb_frame *was, const lmb_frame *f)
 {
     const lmb_bvh *a = &was->bvh, *b = &f->bvh;
     return requires_bvh(was) && requires_full_bvh(was) == requires_full_bvh(f) &&
-           a->scene == was->scene && a->triangle == b->triangle && a->node == b->node &&
+           a->scene == was->scene && a->triangle == b->triangle && a->node == b->node && a->small == b->small &&
            a->triangle_cap == b->triangle_cap && a->node_cap == b->node_cap;
 }
 

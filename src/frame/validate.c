@@ -67,7 +67,7 @@ static int has_live(const lmb_frame *f)
            f->scratch->live != NULL;
 }
 
-/* Would calls that take no small BVH get one? */
+/* Does a stage that needs large nodes have small ones? */
 static int has_wrong_bvh(const lmb_frame *f)
 {
     return f->bvh.small != NULL && requires_full_bvh(f) &&

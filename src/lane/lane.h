@@ -347,6 +347,19 @@ static inline lane lane_exp2(lane a)
     return lane_of_bits(lanei_add(lanei_bits_of(p), lanei_mul(lane_to_int(k), lanei_splat(0x800000))));
 }
 
+/* lmb_log2 */
+static inline lane lane_log2(lane a)
+{
+    const lanei u = lanei_bits_of(lane_max(a, lane_splat(0x1p-126f)));
+    const lanei e = lanei_shift(lanei_sub(u, lanei_splat(0x3f3504f3)), 23);
+    const lane f = lane_sub(lane_of_bits(lanei_sub(u, lanei_mul(e, lanei_splat(0x800000)))), lane_splat(1.0f));
+    const lane s = lane_div(f, lane_add(lane_splat(2.0f), f)), z = lane_mul(s, s);
+    const lane l = lane_more(0x1.55557ap-1f, z, lane_more(0x1.995ed8p-2f, z, lane_splat(0x1.31e03cp-2f)));
+    const lane q = lane_mul(s, lane_sub(f, lane_mul(z, l)));
+    const lane rest = lane_sub(lane_mul(lane_splat(0x1.c551dap-2f), lane_sub(f, q)), q);
+    return lane_add(lane_from_int(e), lane_add(f, rest));
+}
+
 typedef struct lane3 {
     lane x, y, z;
 } lane3;

@@ -1,6 +1,6 @@
-# live.sh: frames of the demo with moving light, in 160 KiB of RAM on a Cortex-M4F under qemu and here, and in 320 KiB
-# with bounced light of which nothing is baked: checks for equal pictures, and prints instructions, ROM and RAM of each. MAKE BUILD TOOL in the environment. Without cross compiler or
-# qemu: as tiny.sh.
+# live.sh: checks that frames of the demo with moving light are equal on a Cortex-M4F under qemu and here: in 160 KiB of
+# RAM, and in 320 KiB with bounced light that is not baked. Prints instructions, ROM and RAM of each. MAKE BUILD TOOL in
+# the environment. Without cross compiler or qemu: as tiny.sh.
 . tests/scripts/checks.sh
 
 if ! missing=$(sh tests/scripts/tools.sh need arm-none-eabi-gcc qemu-system-arm 2>&1); then

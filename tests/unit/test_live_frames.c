@@ -428,12 +428,19 @@ static void test_refused(void)
 /* A BVH of small nodes gives the same picture, and frames that would take nothing from it refuse it. */
 static void small_nodes(void)
 {
-    static uint64_t small_memory[6400];
+    static uint64_t small_memory[6400], other_memory[6400];
     const uint32_t triangles = lmb_scene_triangles(demo_scene());
     const lmb_frame_settings s = settings_of(demo_scene(), demo_view(96, 72), LMB_GATHER_LIVE);
     const uint64_t wide = drawn(&s);
     CHECK(lmb_bvh_small_init(&frame.bvh, triangles, small_memory, sizeof small_memory) == LMB_OK);
     CHECK(lmb_render_frame(&render, &frame) == LMB_OK && render.frame.bvh.small_count > 0 && hash_of() == wide);
+    /* The next frame's BVH in other memory: the first memory may be gone. */
+    CHECK(lmb_bvh_small_init(&frame.bvh, triangles, other_memory, sizeof other_memory) == LMB_OK);
+    CHECK(lmb_render_reuse(&render, &frame) == LMB_OK);
+    memset(small_memory, 0, sizeof small_memory);
+    while (lmb_render_step(&render, 7) == LMB_MORE) {
+    }
+    CHECK(render.failed == LMB_OK && render.frame.bvh.small == frame.bvh.small && hash_of() == wide);
     frame.gather_step = 1;
     CHECK(lmb_render_begin(&render, &frame) == LMB_ERR_ARG);
     frame.show = LMB_SHOW_DIRECT;
