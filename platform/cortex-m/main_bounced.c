@@ -1,8 +1,8 @@
 /* main_bounced.c: frames of the demo scene with bounced light, 160x120 in RGB565, in less than 320 KiB of RAM. Lamp and
  * knot move. Nothing is baked, and nothing is kept from one frame for the next. Build it with LMB_LIVE_CUT 64.
  *
- * Prints, for each frame, the picture's hash, thousands of instructions by stage (0: unknown) and in all, and how many
- * more these are than for direct light in the same memory; then the RAM. The hashes must be the same on a host. */
+ * Prints, for each frame, the picture's hash, thousands of instructions by stage (0: unknown) and in all, those of direct
+ * light in the same memory, and the difference; then the RAM. The hashes must be the same on a host. */
 #include <lambent/lambent.h>
 
 #include <string.h>
@@ -10,11 +10,9 @@
 #include "../../tools/demo/demo_scene.h"
 #include "../port_say.h"
 #include "count.h"
+#include "strips.h"
 
 enum {
-    WIDTH = 160,
-    HEIGHT = 120,
-    STRIP = 24,
     MAP_SIZE = 64,
     BLOCKS = 16, /* first points each way, at most */
     STRATA = 8,
@@ -24,10 +22,6 @@ enum {
     STAGES = LMB_STAGE_DONE
 };
 
-/* Words, for alignment. Depth and id consist of whole tiles: sides are multiples of 8. */
-static uint32_t picture[WIDTH * HEIGHT / 2];
-static uint32_t strip_depth[WIDTH * STRIP];
-static uint32_t strip_id[WIDTH * STRIP / 2];
 static uint32_t map_memory[MAP_SIZE * MAP_SIZE * 6 / 4];
 static uint32_t bvh_memory[13000];
 static uint64_t live_memory[9400];
@@ -83,16 +77,6 @@ static void move(int number)
 
 /* --- memory ------------------------------------------------------------------------------------------------------- */
 
-static lmb_status place_surfaces(void)
-{
-    lmb_status s = lmb_surface_init(&frame.out, LMB_RGB565, WIDTH, HEIGHT, picture, sizeof picture);
-    if (s == LMB_OK)
-        s = lmb_surface_init(&frame.eye.depth, LMB_DEPTH32F, WIDTH, STRIP, strip_depth, sizeof strip_depth);
-    if (s == LMB_OK)
-        s = lmb_surface_init(&frame.eye.id, LMB_ID16, WIDTH, STRIP, strip_id, sizeof strip_id);
-    return s;
-}
-
 static lmb_status place_bounces(void)
 {
     const uint32_t triangles = lmb_scene_triangles(&scene);
@@ -119,7 +103,7 @@ static lmb_status place(void)
 {
     lmb_status s = lmb_build_check();
     if (s == LMB_OK)
-        s = place_surfaces();
+        s = place_strips(&frame);
     frame.kernels = lmb_kernels_pick();
     frame.scene = &scene;
     frame.view = demo_view(WIDTH, HEIGHT);

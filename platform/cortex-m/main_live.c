@@ -1,19 +1,20 @@
 /* main_live.c: a frame of the demo scene, 160x120 in RGB565, in less than 160 KiB of RAM: direct light of the lamp, and
  * with BAKED 1 (main_baked.c) bounced light, by the transfer that tests/scripts/live.sh bakes.
  *
- * Prints the picture's hash, the instructions for the frame (0: unknown), and the RAM. The hash
- * must be the same on a host. */
+ * Prints the picture's hash, the instructions for the frame (0: unknown), and the RAM. The hash must be the
+ * same on a host. */
 #include <lambent/lambent.h>
 
 #include "../../tools/demo/demo_scene.h"
 #include "../port_say.h"
 #include "count.h"
+#include "strips.h"
 
 #ifndef BAKED
 #define BAKED 0
 #endif
 
-enum { WIDTH = 160, HEIGHT = 120, STRIP = 24, MAP_SIZE = 80 };
+enum { MAP_SIZE = 80 };
 
 #if BAKED
 static const uint32_t baked[] = {
@@ -26,24 +27,10 @@ static const char name[] = "demo-baked";
 static const char name[] = "demo-direct";
 #endif
 
-/* Words, for alignment to 4. Depth and id consist of whole tiles: sides are multiples of 8. */
-static uint32_t picture[WIDTH * HEIGHT / 2];
-static uint32_t strip_depth[WIDTH * STRIP];
-static uint32_t strip_id[WIDTH * STRIP / 2];
 static uint32_t map_memory[MAP_SIZE * MAP_SIZE * 6 / 4];
 static lmb_band_scratch scratch;
 static lmb_render render;
 static lmb_frame frame;
-
-static lmb_status place_surfaces(void)
-{
-    lmb_status s = lmb_surface_init(&frame.out, LMB_RGB565, WIDTH, HEIGHT, picture, sizeof picture);
-    if (s == LMB_OK)
-        s = lmb_surface_init(&frame.eye.depth, LMB_DEPTH32F, WIDTH, STRIP, strip_depth, sizeof strip_depth);
-    if (s == LMB_OK)
-        s = lmb_surface_init(&frame.eye.id, LMB_ID16, WIDTH, STRIP, strip_id, sizeof strip_id);
-    return s;
-}
 
 static lmb_status place_light(void)
 {
@@ -67,7 +54,7 @@ static lmb_status place(void)
 {
     lmb_status s = lmb_build_check();
     if (s == LMB_OK)
-        s = place_surfaces();
+        s = place_strips(&frame);
     frame.kernels = lmb_kernels_pick();
     frame.scene = demo_scene();
     frame.view = demo_view(WIDTH, HEIGHT);

@@ -1,4 +1,4 @@
-/* small.c: builds a BVH of 16-byte nodes in the order of a Z curve, in each frame if you like. Layer 4.        [ours]
+/* small.c: builds a BVH of 16-byte nodes in the order of a Z curve. It may be rebuilt each frame. Layer 4. [ours]
  *
  * Triangles are sorted by size, in three classes, and by the Z curve of their middles. Each four of them are a leaf. A
  * node is split at the highest bit in which the keys of its leaves differ. Boxes are whole steps of a grid over all
@@ -19,11 +19,11 @@
 #if LMB_LIVE
 
 enum {
-    SMALL_LEAF = 4,            /* triangles */
-    SPARE_NODES = 128,   /* while nodes are written, the keys of the leaves that follow are not overwritten */
-    MOST_SMALL = 65535,  /* triangles: ids have 16 bits */
+    SMALL_LEAF = 4,         /* triangles */
+    SPARE_NODES = 128,      /* over the depth of the tree: nodes then never overwrite keys that are still read */
+    MOST_SMALL = 65535,     /* triangles: ids have 16 bits */
     MOST_SMALL_RUNS = 64,   /* nodes: 32 bits of the keys, and halves of up to 2^14 equal ones */
-    SMALL_KEY_CELLS = 1024,    /* along each axis */
+    SMALL_KEY_CELLS = 1024, /* along each axis */
     SMALL_DIGIT = 256
 };
 #define SMALL_GRID_STEPS 65000.0f /* over all triangles; a node has 65,536 */
