@@ -336,6 +336,9 @@ void hard_room(hard_list *list)
     }
     hard_put(list, HARD_MEASURED, "gathered light beside a wall on one floor: worst pixel", beside, 1e-4,
              "of the lit side's");
+    beside = beside_wall(list->stage, 78);
+    hard_put(list, HARD_MEASURED, "the same, a texel's middle snapped past the wall", beside, 1e-3,
+             "of the lit side's");
     double segments = 0;
     for (int i = 0; i < SEEDS * LIGHTS; ++i) {
         segments += segments_of_balls(list->stage, i % LIGHTS, (uint64_t)(1 + i / LIGHTS));
