@@ -82,21 +82,26 @@ void lmb_facets_mark(lmb_texel *inout, const lmb_tile *t, int own, int first, in
 
 /* --- at the gather ------------------------------------------------------------------------------------------------ */
 
-/* Keeps what lies on the inner side of one border of the map, through the place `s` of the axis. */
-static int keep_inside(lmb_vec3 *inout, int corners, const lmb_view *v, lmb_vec3 axis, float s, float sign)
+/* Keeps the part of a polygon in front of a plane. */
+static int keep_before(lmb_vec3 *inout, int corners, lmb_vec3 on, lmb_vec3 normal)
 {
     lmb_vec3 out[POLYGON_CORNERS + 1];
-    const int is_cone = v->kind == LMB_PERSPECTIVE;
-    const lmb_vec3 shift = is_cone ? vec3(0, 0, 0) : mul3(axis, s),
-                   normal = mul3(is_cone ? add3(axis, mul3(v->back, s)) : axis, sign);
     for (int i = 0; i < corners; ++i) {
-        inout[i] = sub3(inout[i], shift);
+        inout[i] = sub3(inout[i], on);
     }
     corners = mini(polygon_clip(out, inout, corners, normal), POLYGON_CORNERS);
     for (int i = 0; i < corners; ++i) {
-        inout[i] = add3(out[i], shift);
+        inout[i] = add3(out[i], on);
     }
     return corners;
+}
+
+/* Keeps what lies on the inner side of one border of the map, through the place `s` of the axis. */
+static int keep_inside(lmb_vec3 *inout, int corners, const lmb_view *v, lmb_vec3 axis, float s, float sign)
+{
+    const int is_cone = v->kind == LMB_PERSPECTIVE;
+    return keep_before(inout, corners, is_cone ? vec3(0, 0, 0) : mul3(axis, s),
+                       mul3(is_cone ? add3(axis, mul3(v->back, s)) : axis, sign));
 }
 
 /* The polygon's area and middle. */
@@ -161,13 +166,14 @@ static int are_before(const lmb_facets *f, int of, uint64_t pixels, int s, float
     return before;
 }
 
-/* Where two surfaces meet in a concave edge, each ends at the other one's plane. pixels: those that show the part. */
+/* Where two surfaces meet in a concave edge, each ends at the other one's plane. Triangles of one plane do not, because
+ * rounding would cut them at random. pixels: those that show the part. */
 static void clip_by_others(lmb_facet *inout, const lmb_facets *f, int s, uint64_t pixels)
 {
-    lmb_vec3 out[POLYGON_CORNERS + 1];
     for (int o = 0; o < f->surfaces; ++o) {
+        const lmb_vec3 between = sub3(f->surface[o].on, f->surface[s].on);
         float low = 0.0f, high = 0.0f;
-        for (int i = 0; i < inout->corners && o != s; ++i) {
+        for (int i = 0; i < inout->corners && !in_plane(f->surface[s].normal, f->surface[o].normal, between); ++i) {
             const float height = height_over(f, o, inout->corner[i]);
             low = minf(low, height);
             high = maxf(high, height);
@@ -175,14 +181,7 @@ static void clip_by_others(lmb_facet *inout, const lmb_facets *f, int s, uint64_
         const float past = SNAPPED * (high - low);
         if (low < 0.0f && are_before(f, s, pixels, o, past) &&
             are_before(f, o, f->surface[o].pixels, s, past)) {
-            for (int i = 0; i < inout->corners; ++i) {
-                inout->corner[i] = sub3(inout->corner[i], f->surface[o].on);
-            }
-            inout->corners =
-                mini(polygon_clip(out, inout->corner, inout->corners, f->surface[o].normal), POLYGON_CORNERS);
-            for (int i = 0; i < inout->corners; ++i) {
-                inout->corner[i] = add3(out[i], f->surface[o].on);
-            }
+            inout->corners = keep_before(inout->corner, inout->corners, f->surface[o].on, f->surface[o].normal);
         }
     }
     set_middle(inout);

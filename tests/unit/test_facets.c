@@ -3,7 +3,7 @@
 
 #include "../world.h"
 
-enum { FRAME = 48, MAP = 128, FACES = 1, ELEMENTS = 64, BVH = 2048, TREE = MAP / 4, SIDES = 12 };
+enum { FRAME = 48, MAP = 128, FACES = 1, ELEMENTS = 64, BVH = 2048, TREE = MAP / 4, SIDES = 12, PARTS = 5 };
 
 #include "../bounce_frame.h"
 
@@ -14,7 +14,7 @@ void test_facets(void);
 static uint8_t colours[3 * WORLD_TRIANGLES][4], texel[4];
 static float plain[FRAME * FRAME * 3];
 
-enum { BY_ALBEDO, BY_COLOURS, BY_TEXTURE, BY_NEEDLES };
+enum { BY_ALBEDO, BY_COLOURS, BY_TEXTURE, BY_NEEDLES, BY_PARTS };
 enum { LEVEL = 64 /* linear */, CODE = 137 /* sRGB */ };
 
 /* A column on a floor, in a spot from the side; the floor's albedo is `albedo`, LEVEL or CODE. */
@@ -28,8 +28,14 @@ static void draw_column(int by, double albedo)
         const float a = (float)(2.0 * PI * i / SIDES), b = (float)(2.0 * PI * (i + 1) / SIDES);
         const lmb_vec3 p = vec3(0.4f * cosf(a), 0, 0.4f * sinf(a)), q = vec3(0.4f * cosf(b), 0, 0.4f * sinf(b)),
                        up = vec3(0, 1, 0);
-        world_triangle(p, add3(p, up), add3(q, up));
-        world_triangle(p, add3(q, up), q);
+        const int parts = by == BY_PARTS ? PARTS : 1;
+        for (int k = 0; k < parts * parts; ++k) {
+            const float to_q = (float)(k % parts) / (float)parts, height = (float)(k / parts) / (float)parts;
+            const lmb_vec3 wide = mul3(sub3(q, p), 1.0f / (float)parts), high = mul3(up, 1.0f / (float)parts),
+                           at = add3(add3(p, mul3(sub3(q, p), to_q)), mul3(up, height));
+            world_triangle(at, add3(at, high), add3(add3(at, high), wide));
+            world_triangle(at, add3(add3(at, high), wide), add3(at, wide));
+        }
     }
     for (int i = 0; i < 1900 && by == BY_NEEDLES; ++i) { /* around the column: three points in a line each */
         const float a = (float)(2.0 * PI * i / 1900);
@@ -45,7 +51,7 @@ static void draw_column(int by, double albedo)
     world.texture.width = world.texture.height = world.texture.levels = 1;
     world.texture.filter = LMB_NEAREST;
     for (int c = 0; c < 3; ++c) {
-        world.material[0].albedo[c] = by == BY_ALBEDO || by == BY_NEEDLES ? (float)albedo : 1.0f;
+        world.material[0].albedo[c] = by != BY_COLOURS && by != BY_TEXTURE ? (float)albedo : 1.0f;
     }
     CHECK(world_end() == LMB_OK);
     const lmb_light light = spot(vec3(2.5f, 2.0f, 1.5f), vec3(-2.5f, -1.7f, -1.5f), 10, 40);
@@ -90,11 +96,25 @@ static void check_needles(void)
     CHECK_MSG(under == 0 && sum[0] > 0.0 && fabs(sum[1] / sum[0] - 1.0) < 0.02, "%g, with needles %g", sum[0], sum[1]);
 }
 
+/* Triangles of one plane do not end at each other. */
+static void check_parts(void)
+{
+    double sum[2] = {0.0, 0.0};
+    for (int with = 0; with < 2; ++with) {
+        draw_column(with ? BY_PARTS : BY_ALBEDO, 0.5);
+        for (int i = 0; i < COUNT(picture); ++i) {
+            sum[with] += (double)picture[i];
+        }
+    }
+    CHECK_MSG(sum[0] > 0.0 && fabs(sum[1] / sum[0] - 1.0) < 0.005, "%g, in parts %g", sum[0], sum[1]);
+}
+
 void test_facets(void)
 {
     check_albedo(BY_COLOURS, LEVEL / 255.0);
     check_albedo(BY_TEXTURE, pow((CODE / 255.0 + 0.055) / 1.055, 2.4));
     check_needles();
+    check_parts();
 }
 
 #else
