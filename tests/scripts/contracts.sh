@@ -1,6 +1,6 @@
-# contracts.sh: checks that each public call has a description in the header with all statuses that it returns, that
-# each header states its stability, that other modules use each call, and that the README lists the stable headers. B
-# in the environment.
+# contracts.sh: checks that each public call has a description in the header with the statuses that it returns, that
+# types.h defines these statuses, that each header states its stability, that other modules use each call, and that the
+# README lists the stable headers. B in the environment.
 . tests/scripts/checks.sh
 
 dir=$B/contracts
@@ -17,6 +17,11 @@ while read -r _ header name; do
     fail "$header: a comment names $name, which is in no header"
 done <"$dir/unknown"
 [ -s "$dir/unknown" ] || pass
+
+# Statuses that a header names and types.h does not define.
+sed -nE 's/^ +(LMB_ERR_[A-Z]+) = -[0-9].*/\1/p' include/lambent/types.h >"$dir/statuses"
+grep -noE '\bLMB_ERR_[A-Z0-9_]+' include/lambent/*.h | grep -vwFf "$dir/statuses" >"$dir/unknown"
+check "statuses that types.h does not define: $(tr '\n' ' ' <"$dir/unknown")" test ! -s "$dir/unknown"
 
 # Uses of each call: a line "NAME FILE" for each file that names it.
 grep -rhoHE '\blmb_[a-z0-9_]+' src tools platform tests --include='*.[ch]' --include='*.cpp' --include='*.inl' | sort -u |
