@@ -26,6 +26,7 @@ more=$(printf '%s\n' "$has" | grep -xE "${more}gltf_load|picture_read|lmb_draw_l
 check "demo-picture has what it does not need: $more" test -z "$more"
 check "demo-picture fails" "$B/demo-picture" "$B/links/demo.png"
 check "the README's picture is not the one of demo-picture" cmp "$B/links/demo.png" tests/results/demo.png
+check "lambent doctor expects another hash of the built-in room" "$tool" doctor
 if [ "${LMB_LONG:-0}" -ge 2 ]; then
     check "lambent render demo fails" "$tool" render demo -q -o "$B/links/rendered.png"
     check "lambent render demo draws another picture" cmp "$B/links/rendered.png" tests/results/demo.png
