@@ -166,14 +166,15 @@ static int are_before(const lmb_facets *f, int of, uint64_t pixels, int s, float
     return before;
 }
 
-/* Where two surfaces meet in a concave edge, each ends at the other one's plane. Triangles of one plane do not, because
- * rounding would cut them at random. pixels: those that show the part. */
+/* Where two surfaces meet in a concave edge, each ends at the other one's plane. Triangles in one plane do not end
+ * at each other: rounding decides which of them is in front. pixels: those that show the part. */
 static void clip_by_others(lmb_facet *inout, const lmb_facets *f, int s, uint64_t pixels)
 {
     for (int o = 0; o < f->surfaces; ++o) {
-        const lmb_vec3 between = sub3(f->surface[o].on, f->surface[s].on);
+        const int is_same = in_plane(f->surface[s].normal, f->surface[o].normal,
+                                     sub3(f->surface[o].on, f->surface[s].on));
         float low = 0.0f, high = 0.0f;
-        for (int i = 0; i < inout->corners && !in_plane(f->surface[s].normal, f->surface[o].normal, between); ++i) {
+        for (int i = 0; i < inout->corners && !is_same; ++i) {
             const float height = height_over(f, o, inout->corner[i]);
             low = minf(low, height);
             high = maxf(high, height);
