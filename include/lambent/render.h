@@ -73,6 +73,7 @@ typedef struct lmb_band_scratch {
     lmb_irradiance direct, indirect;
     lmb_radiance radiance;
     lmb_stats counts; /* pairs and segments, added to by lmb_render_band: zero it yourself */
+    int64_t saved_tests; /* lmb_cut_params.saved of the band's cuts */
     lmb_many_lights_scratch many_lights;
     lmb_tile together;      /* pixels of several samples, or vertices, gathered as one tile */
     lmb_irradiance between; /* LMB_GATHER_LIVE: bounced light of a tile's pixels */

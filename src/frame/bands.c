@@ -62,6 +62,9 @@ static lmb_status light_band(const lmb_render *r, lmb_band_scratch *scratch, con
     if (requires_live(f)) {
         lmb_live_forget(scratch->live);
     }
+    if (LMB_TREES) {
+        scratch->saved_tests = 0;
+    }
     for (int32_t x = 0; x < f->view.frame_width && status == LMB_OK; x += LMB_TILE) {
         const lmb_irradiance *indirect;
         status = lmb_resolve_tile(&scratch->tile, f->kernels, &f->view, f->scene, window, x, band * LMB_TILE);

@@ -22,6 +22,7 @@ static lmb_status take_tile(float (*out)[3], const lmb_render *r, lmb_band_scrat
     const lmb_frame *f = &r->frame;
     lmb_status status = lmb_resolve_tile(&s->tile, f->kernels, &f->view, f->scene, &f->eye, x, y);
     status = status != LMB_OK ? status : lmb_render_direct(r, NULL, s, &s->tile, &f->view);
+    s->saved_tests = 0;
     memset(&s->indirect, 0, sizeof s->indirect);
     if (status == LMB_OK) {
         lmb_render_onto_triangles(&s->tile, f);

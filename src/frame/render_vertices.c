@@ -68,6 +68,7 @@ static void vertex_add(lmb_radiance *sum, const lmb_irradiance *light, float sha
 static lmb_status vertex_add_bounced(const vertex_job *j, float share)
 {
     lmb_band_scratch *s = j->s;
+    s->saved_tests = 0;
     memset(&s->indirect, 0, sizeof s->indirect);
     const lmb_status status = lmb_render_gather(&s->indirect, NULL, j->r, s, &s->together, NULL);
     vertex_add(&s->radiance, &s->indirect, share);

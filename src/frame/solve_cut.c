@@ -99,6 +99,7 @@ lmb_status lmb_solve_cut_tile(lmb_irradiance *inout, lmb_glossy *glossy, const l
     if (LMB_MULTISAMPLE && tile == &s->together && f->samples > 1) { /* all samples of a tile: as many as its middles */
         cut_params.tests = LMB_TRAVERSAL_FIRST / f->samples;
     }
+    cut_params.saved = &s->saved_tests;
     cut_params.beside = gathers_many_lights(f) ? inout : NULL;
     lmb_status status = lmb_gather_cut(inout, f->kernels, &s->gather.cut, tile, &f->tree, &cut_params);
     if (status == LMB_OK && requires_elements(r)) {

@@ -523,8 +523,57 @@ static void check_door(float visibility, double p95)
     CHECK_MSG(fabs(mean - 1.0) <= 0.01, "%g", mean);
 }
 
+/* Tiles of a row share tests: a tile is exact while earlier ones saved enough, and is coarse and cheap if they borrowed
+ * too much. By default a tile adds 4.4 million tests and may borrow five times as many. */
+static void check_row(void)
+{
+    enum { MEAN = 4369066 /* 65,536 / .015f */, LONG_AGO = 1 << 20 };
+    const lmb_light light = spot(vec3(-0.3f, 0.2f, 0.1f), vec3(-1, -0.5f, 0.1f), 20, 45);
+    const lmb_view v = look(vec3(0.95f, 0.6f, -0.8f), vec3(0.2f, -0.7f, 0.3f), 90, FRAME);
+    lmb_cut_params how = cut_params_of(0.001f, NULL);
+    lmb_irradiance own, got;
+    lmb_bvh b;
+    uint32_t most = 0;
+    int busiest = 0;
+    make_rooms();
+    lit_begin(1, LIT_SMALL / 2, 0);
+    lit_add(&light);
+    CHECK(lmb_bvh_init(&b, world.count, bvh_memory, sizeof bvh_memory) == LMB_OK);
+    CHECK(lmb_bvh_build(&b, &world.scene) == LMB_OK);
+    how.bvh = &b;
+    how.visibility = 0.015f;
+    draw_view(&v);
+    begin_cut();
+    for (int t = 0; t < BANDS * BANDS; ++t) {
+        take_tile(&v, t);
+        gather(&got, &how);
+        busiest = cut.it.tests > most ? t : busiest;
+        most = cut.it.tests > most ? cut.it.tests : most;
+    }
+    CHECK_MSG(most > 10000, "%u", (unsigned)most);
+    take_tile(&v, busiest);
+    gather(&own, &how);
+    const int64_t start[] = {0, LONG_AGO, -6 * (int64_t)MEAN + 2 * (int64_t)most, -6 * (int64_t)MEAN - LONG_AGO};
+    for (int i = 0; i < 4; ++i) {
+        int64_t saved = start[i];
+        how.saved = &saved;
+        gather(&got, &how);
+        const int64_t off = saved - (start[i] + MEAN - (int64_t)cut.it.tests);
+        CHECK_MSG(off >= -1 && off <= 1, "%d: %.0f", i, (double)off);
+        if (i < 3) {
+            CHECK_MSG(cut.it.tests == most && cut.it.coarse == 0 && memcmp(&got, &own, sizeof got) == 0, "%d: %u tests", i,
+                      (unsigned)cut.it.tests);
+        } else {
+            CHECK_MSG(cut.it.tests < most / 4 && cut.it.coarse > 0, "%u of %u tests, %u coarse", (unsigned)cut.it.tests,
+                      (unsigned)most, (unsigned)cut.it.coarse);
+        }
+    }
+    CHECK(canary_stays());
+}
+
 void test_cut(void)
 {
+    check_row();
     check_error(0.02f, 1, 0.02, 1.0);
     check_error(0.5f, 1, 0.5, 0.7);
     check_error(0.02f, 0, 0.02, 0.12);
