@@ -20,7 +20,7 @@ PAGE_SRC  := $(filter-out src/isa/% tools/common/io_file.c tools/relief/verb_rel
              platform/web/page/*.c)))
 PAGE_KERNELS := src/base/codec.c src/base/poly.c src/bounce/polygon.c src/raster/plane.c src/raster/texture.c
 PAGE_FLAGS := --target=wasm32-wasi -isystem $(WASI)/include/wasm32-wasi -std=c99 -ffp-contract=off -fno-math-errno \
-              -fno-builtin-bcmp -flto -mbulk-memory -Wall -Wextra -Iinclude -D_WASI_EMULATED_SIGNAL -DOPTIONS_WITHOUT_HELP -DGLTF_WITHOUT_CROWDS -DLMB_CULLING=0 -DLMB_LIVE=0 -DLMB_DRAW=0 -DLMB_FACETS=0 \
+              -fno-builtin-bcmp -flto -mbulk-memory -Wall -Wextra -Iinclude -D_WASI_EMULATED_SIGNAL -DOPTIONS_WITHOUT_HELP -DGLTF_WITHOUT_CROWDS -DWORLD_WITHOUT_LAMPS -DLMB_CULLING=0 -DLMB_LIVE=0 -DLMB_DRAW=0 -DLMB_FACETS=0 \
               -mnontrapping-fptoint -msign-ext -MMD -MP
 # Below the module's data and 1 MiB of stack: 128 KiB each for the data of the kernels and of the
 # demo, and unused stacks.

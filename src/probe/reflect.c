@@ -133,7 +133,7 @@ static void store_cube_texels(float *cube, const lmb_probe_rays *t, int32_t firs
 {
     for (int32_t k = 0; k < LMB_TILE_PIXELS && first + k < texels; ++k) {
         for (int c = 0; c < 3; ++c) {
-            cube[c * texels + first + k] = t->sum[c][k] * scale;
+            cube[c * texels + first + k] = maxf(t->sum[c][k] * scale, 0.0f);
         }
     }
 }

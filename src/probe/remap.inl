@@ -99,7 +99,8 @@ LANE_INLINE void remap_parabola(lane weight[3], lane t)
     weight[2] = lane_add(even, odd);
 }
 
-/* The sharpest filter, for rays that need the mean over a texel or more. The result is never negative. */
+/* The sharpest filter, for rays of which the mean over a texel or more is needed. Beside a bright texel a single ray
+ * may be negative. Clamped rays would add 5 to 20 % to the light of small lamps. */
 LANE_PART remap_colour remap_nine(const lmb_world_job *job, const remap_spot *spot)
 {
     const lane zero = lane_splat(0.0f), one = lane_splat(1.0f), half = lane_splat(0.5f),
@@ -115,9 +116,6 @@ LANE_PART remap_colour remap_nine(const lmb_world_job *job, const remap_spot *sp
         const lanei at = lanei_add(middle, lanei_splat((i / 3 - 1) * (job->side + 2) + i % 3 - 1));
         remap_add(&sum, job, at, lane_mul(across[i % 3], down[i / 3]));
     }
-    sum.rgb.x = lane_max(sum.rgb.x, zero);
-    sum.rgb.y = lane_max(sum.rgb.y, zero);
-    sum.rgb.z = lane_max(sum.rgb.z, zero);
     sum.alpha = lane_min(lane_max(sum.alpha, zero), one);
     return sum;
 }

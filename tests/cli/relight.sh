@@ -279,6 +279,10 @@ for azimuth in -90 45 179; do
     status 0 relight --world demo --map again.pfm --vectors vectors.pfm
     check "relight --vectors moves the lamps of --azimuth $azimuth" cmp quarter.pfm again.pfm
 done
+# A sun of one pixel: finer maps and the first lobe have all of its light, which is a mean of 1 in this map.
+{ printf 'PF\n128 64\n-1.0\n'; head -c $((12 * (128 * 32 + 40))) /dev/zero; printf '\000\000\000\106%.0s' 1 2 3; head -c $((12 * (128 * 32 - 41))) /dev/zero; } >sun.pfm
+status 0 relight --world sun.pfm --map sun_map.pfm --map-height 128
+check "a map keeps the light of a sun of one pixel" sh -c '"$1" info sun_map.pfm | awk "/ mean /{ n += \$NF > 0.98 && \$NF < 1.02 } END { exit n != 3 }"' sh "$TOOL"
 status 1 relight --world white.pfm --map bad.pfm --vectors white.pfm
 said "no transform image"
 status 2 relight --world white.pfm --map bad.pfm --vectors vectors.pfm --azimuth 0

@@ -525,6 +525,33 @@ static void lamp_in_lobe(stage *s)
     paint_sky(s);
 }
 
+/* A mirror's cube of the world's side, or half of that, has all light of a lamp of one texel, and no negative texel. Other
+ * sides may be 30 % off, because texels are clamped. */
+static void lamp_in_mirror(stage *s)
+{
+    enum { SIDES = 2, MOST = FACE };
+    static const int32_t side[SIDES] = {FACE / 2, FACE};
+    static float planes[18 * MOST * MOST];
+    static lmb_probe_rays rays;
+    const lmb_world_query query = {&s->world, 0.0f, 0};
+    for (int i = 0; i < SIDES * 6; ++i) {
+        const int32_t n = side[i % SIDES], texels = 6 * n * n;
+        lmb_vec3 to;
+        const float flux = one_lamp(&to, s, i / SIDES, (i * 1237 + 411) % (FACE * FACE), 1000.0f, s->pictures.centre);
+        double light = 0.0;
+        float least = 1.0f;
+        CHECK(lmb_probe_reflect(planes, n, picked_kernels(), &rays, &query, s->pictures.centre, 0.0f) == LMB_OK);
+        for (int32_t k = 0; k < texels; ++k) {
+            const float u = cube_coordinate(k % n, n), v = cube_coordinate(k / n % n, n), l2 = 1.0f + u * u + v * v;
+            light += (double)planes[k] * 4.0 / ((double)(n * n) * (double)l2 * sqrt((double)l2));
+            least = minf(least, planes[k]);
+        }
+        CHECK_MSG(fabs(light - (double)flux) < (n < FACE ? 0.05 : 0.006) * (double)flux && least >= 0.0f,
+                  "side %d, face %d: light %g, not %g; least %g", (int)n, i / SIDES, light, (double)flux, (double)least);
+    }
+    paint_sky(s);
+}
+
 /* Of more bright blocks than a reduced map has peaks, the strongest become peaks. */
 static void strongest_blocks(stage *s)
 {
@@ -873,6 +900,7 @@ void test_probe(void)
     }
     lamps(s);
     lamp_in_lobe(s);
+    lamp_in_mirror(s);
     lamp_under_ground(s);
     many_lamps(s);
     strongest_blocks(s);

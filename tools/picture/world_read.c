@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "../common/slice.h"
-#include "picture_read.h"
+#include "world_sphere.h"
 
 enum { MAX_SIDE = 4096 };
 
@@ -39,22 +39,6 @@ static int read_picture(stored_picture *out, world_pictures *own, const char *pa
     return ok;
 }
 
-/* Linear RGB and alpha of a pixel. */
-static void pixel_at(float out[4], const stored_picture *p, size_t at)
-{
-    out[3] = 1.0f;
-    for (int c = 0; c < 3; ++c) {
-        if (p->light.pixels != NULL) {
-            out[c] = p->light.pixels[p->light.channels == 1 ? at : 3 * at + (size_t)c];
-        } else {
-            out[c] = p->light_of[p->codes.texels[4 * at + (size_t)c]];
-        }
-    }
-    if (p->light.pixels == NULL) {
-        out[3] = (float)p->codes.texels[4 * at + 3] * (1.0f / 255.0f);
-    }
-}
-
 /* Allocates face i, with alpha if the image has one; returns 0 with `r` set if memory is short. */
 static int take_face(lmb_world_pictures *out, world_pictures *own, int i, int32_t side, const stored_picture *p,
                      const char *path, report *r)
@@ -75,7 +59,7 @@ static void copy_face(world_pictures *own, int face, int32_t side, const stored_
 {
     for (int32_t i = 0; i < side * side; ++i) {
         float rgba[4];
-        pixel_at(rgba, p, (size_t)(y0 + i / side) * (size_t)p->width + (size_t)(x0 + i % side));
+        world_pixel(rgba, p, (size_t)(y0 + i / side) * (size_t)p->width + (size_t)(x0 + i % side));
         memcpy(own->face[face] + 3 * (size_t)i, rgba, 3 * sizeof *rgba);
         if (own->alpha[face] != NULL) {
             own->alpha[face][i] = rgba[3];
@@ -97,65 +81,6 @@ static int read_strip(lmb_world_pictures *out, world_pictures *own, const stored
     return 1;
 }
 
-/* Bilinear, across the seam, light weighted by alpha. */
-static void sphere_at(double sum[4], const stored_picture *p, const double d[3])
-{
-    const double pi = 3.14159265358979, length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-    const double u = (0.5 + atan2(d[0], -d[2]) / (2 * pi)) * p->width - 0.5,
-                 v = acos(d[1] / length) / pi * p->height - 0.5;
-    const double x0 = floor(u), y0 = floor(v), fx = u - x0, fy = v - y0;
-    for (int k = 0; k < 4; ++k) {
-        const int32_t x = ((int32_t)x0 + (k & 1) + p->width) % p->width;
-        int32_t y = (int32_t)y0 + (k >> 1);
-        float rgba[4];
-        y = y < 0 ? 0 : y >= p->height ? p->height - 1 : y;
-        pixel_at(rgba, p, (size_t)y * (size_t)p->width + (size_t)x);
-        for (int c = 0; c < 4; ++c) {
-            sum[c] += (k & 1 ? fx : 1 - fx) * (k >> 1 ? fy : 1 - fy) * (double)(c < 3 ? rgba[c] * rgba[3] : rgba[3]);
-        }
-    }
-}
-
-/* As defined in lambent/probe.h. */
-static void face_point(double d[3], int face, double s, double t)
-{
-    const double p[6][3] = {{1, -t, -s}, {-1, -t, s}, {s, 1, t}, {s, -1, -t}, {s, -t, 1}, {-s, -t, -1}};
-    memcpy(d, p[face], sizeof p[face]);
-}
-
-/* Samples per texel and axis: towards the poles, and if the first samples differ much or a little. */
-enum { MAX_PLACES = 16, MANY_PLACES = 8, SOME_PLACES = 4 };
-
-/* Pixels near the poles are narrower, and samples must not miss a sun of one pixel. */
-static int places_of(const double d[3])
-{
-    const double across = sqrt(d[0] * d[0] + d[2] * d[2]), length = sqrt(across * across + d[1] * d[1]);
-    return MAX_PLACES * across < 2.0 * length ? MAX_PLACES : 2 * (int)(length / across + 0.4);
-}
-
-/* The mean of places x places samples over texel `at` of a face; the smallest and the largest of their light. */
-static void mean_at(double sum[4], double range[2], const stored_picture *p, int face, int32_t at, int32_t side,
-                    int places)
-{
-    memset(sum, 0, 4 * sizeof *sum);
-    range[0] = 1e30;
-    range[1] = 0.0;
-    for (int k = 0; k < places * places; ++k) {
-        double one[4] = {0, 0, 0, 0}, d[3];
-        face_point(d, face, (2 * (at % side) + (2 * (k % places) + 1.0) / places) / side - 1,
-                   (2 * (at / side) + (2 * (k / places) + 1.0) / places) / side - 1);
-        sphere_at(one, p, d);
-        const double light = one[0] + one[1] + one[2];
-        range[0] = light < range[0] ? light : range[0];
-        range[1] = light > range[1] ? light : range[1];
-        for (int c = 0; c < 4; ++c) {
-            sum[c] += one[c] / (places * places);
-        }
-    }
-}
-
-/* Each texel is the mean of four samples, of more towards the poles, and of many if they differ, so that no small
- * light loses power. */
 static int read_sphere(lmb_world_pictures *out, world_pictures *own, const stored_picture *p, const char *path,
                        report *r)
 {
@@ -164,25 +89,8 @@ static int read_sphere(lmb_world_pictures *out, world_pictures *own, const store
         if (!take_face(out, own, i, side, p, path, r)) {
             return 0;
         }
-        for (int32_t at = 0; at < side * side; ++at) {
-            double sum[4], range[2], d[3];
-            face_point(d, i, (2 * (at % side) + 1.0) / side - 1, (2 * (at / side) + 1.0) / side - 1);
-            const int places = places_of(d);
-            mean_at(sum, range, p, i, at, side, places);
-            if (places < MANY_PLACES && range[1] > 4.0 * range[0]) {
-                mean_at(sum, range, p, i, at, side, MANY_PLACES);
-            } else if (places < SOME_PLACES && range[1] > 1.5 * range[0]) {
-                mean_at(sum, range, p, i, at, side, SOME_PLACES);
-            }
-            for (int c = 0; c < 3; ++c) {
-                own->face[i][3 * (size_t)at + (size_t)c] = sum[3] > 0.0 ? (float)(sum[c] / sum[3]) : 0.0f;
-            }
-            if (own->alpha[i] != NULL) {
-                own->alpha[i][at] = (float)sum[3];
-            }
-        }
     }
-    return 1;
+    return world_sphere(own, side, p, path, r);
 }
 
 /* The side of a face. Checked before a face is allocated, because a small file may hold an image of one colour of
@@ -341,7 +249,7 @@ int world_read_ground(lmb_world_pictures *out, world_pictures *own, const char *
         ok = report_fail(r, "%s: out of memory", path);
     }
     for (size_t i = 0; ok && i < pixels; ++i) {
-        pixel_at(own->ground + 4 * i, &p, i);
+        world_pixel(own->ground + 4 * i, &p, i);
     }
     out->ground = own->ground;
     out->ground_width = p.width;

@@ -9,14 +9,16 @@
 
 #include "../../platform/host/pool.h"
 #include "../common/frame_name.h"
+#include "../common/fvec.h"
 #include "../common/progress.h"
 #include "../common/text_buffer.h"
 #include "../picture/picture.h"
 
 #define PI   3.14159265f
 #define WIDE 0.3f /* roughness: lobes wider than 8 pixels of the map, 3 degrees each */
+#define MAX_PIXEL_RAD 0.5f /* between neighbours of a transform image; more is a jump */
 
-enum { LEVELS = 6, LEAST_SIDE = 8, DFG_SIDE = 128, DFG_SAMPLES = 512, HARMONICS = 9 };
+enum { LEVELS = 6, LEAST_SIDE = 8, DFG_SIDE = 128, DFG_SAMPLES = 512, HARMONICS = 9, FINE_RAYS = 3 };
 
 /* --- lobes -------------------------------------------------------------------------------------------------------- */
 
@@ -329,10 +331,64 @@ static int save_vectors(own_table *t, const relight_options *o, report *r)
     return relight_write_planes(o->vectors_out, t->map, t->table.width, t->table.height, r);
 }
 
-/* Renders a map finer than the gathered one from a cube of the world. */
+static lmb_vec3 pixel_direction(const lmb_probe_table *t, int32_t x, int32_t y)
+{
+    const float step = 2.0f / 65535.0f;
+    const size_t count = (size_t)t->width * (size_t)t->height, i = (size_t)y * (size_t)t->width + (size_t)x;
+    return vec3((float)t->direction[i] * step - 1.0f, (float)t->direction[count + i] * step - 1.0f,
+                (float)t->direction[2 * count + i] * step - 1.0f);
+}
+
+/* The change of direction over one of `pixels` between two of them. None at a jump, as between faces of a cube in a
+ * transform image. */
+static lmb_vec3 change_between(lmb_vec3 from, lmb_vec3 to, int32_t pixels)
+{
+    const lmb_vec3 d = mul3(sub3(to, from), 1.0f / (float)pixels);
+    return dot3(d, d) < MAX_PIXEL_RAD * MAX_PIXEL_RAD ? d : vec3(0.0f, 0.0f, 0.0f);
+}
+
+/* Ray `part` of FINE_RAYS x FINE_RAYS in a pixel of the map. */
+static lmb_vec3 ray_in_pixel(const lmb_probe_table *t, size_t pixel, int part)
+{
+    const int32_t x = (int32_t)(pixel % (size_t)t->width), y = (int32_t)(pixel / (size_t)t->width);
+    const int32_t top = y > 0 ? y - 1 : y, low = y + 1 < t->height ? y + 1 : y;
+    const lmb_vec3 across = change_between(pixel_direction(t, (x + t->width - 1) % t->width, y),
+                                           pixel_direction(t, (x + 1) % t->width, y), 2),
+                   down = change_between(pixel_direction(t, x, top), pixel_direction(t, x, low), low - top);
+    const float u = ((float)(part % FINE_RAYS) + 0.5f) / FINE_RAYS - 0.5f,
+                v = ((float)(part / FINE_RAYS) + 0.5f) / FINE_RAYS - 0.5f;
+    return normalize3(add3(pixel_direction(t, x, y), add3(mul3(across, u), mul3(down, v))));
+}
+
+/* Sets 64 pixels of the map to the mean of their rays through a cube. Returns 1, or 0 if the kernel refuses. */
+static int see_pixels(own_table *t, lmb_relight_scratch *s, const lmb_kernels *kernels, const lmb_probe_cube *cube,
+                      size_t first)
+{
+    const size_t count = (size_t)t->table.width * (size_t)t->table.height;
+    int ok = 1;
+    memset(&s->light, 0, sizeof s->light);
+    for (int part = 0; ok && part < FINE_RAYS * FINE_RAYS; ++part) {
+        for (size_t i = 0; i < LMB_TILE_PIXELS; ++i) {
+            const lmb_vec3 d = ray_in_pixel(&t->table, first + i, part);
+            s->tile.normal[0][i] = d.x;
+            s->tile.normal[1][i] = d.y;
+            s->tile.normal[2][i] = d.z;
+        }
+        ok = lmb_probe_light_tile(&s->light, kernels, &s->rays, &s->tile, ~(uint64_t)0, cube) == LMB_OK;
+    }
+    for (size_t i = 0; i < 3 * LMB_TILE_PIXELS; ++i) {
+        t->map[i / LMB_TILE_PIXELS * count + first + i % LMB_TILE_PIXELS] =
+            s->light.rgb[i / LMB_TILE_PIXELS][i % LMB_TILE_PIXELS] * (1.0f / (FINE_RAYS * FINE_RAYS));
+    }
+    return ok;
+}
+
+/* Renders a map finer than the gathered one from a cube of the world. The cube's texels are not finer than the world's,
+ * which would add light to small lamps. */
 static int see_fine(own_table *t, relight_light *w, const relight_options *o, lmb_vec3 at, report *r)
 {
-    const int32_t n = o->worlds > 1 ? RELIGHT_MAX_FACES : t->table.height > 128 ? 256 : 128;
+    const int32_t own = o->place.face_size, fine = t->table.height > 128 ? 256 : 128;
+    const int32_t n = o->worlds > 1 ? RELIGHT_MAX_FACES : own > fine ? fine : own < LEAST_SIDE ? LEAST_SIDE : own;
     const size_t bytes = lmb_probe_cube_bytes(n), count = (size_t)t->table.width * (size_t)t->table.height;
     float *planes = malloc(18 * (size_t)n * (size_t)n * sizeof *planes);
     void *texels = malloc(bytes);
@@ -343,17 +399,7 @@ static int see_fine(own_table *t, relight_light *w, const relight_options *o, lm
                 report_fail(r, "--at: numbers over 1,000,000 m"));
     ok = ok && lmb_probe_cube_init(&cube, planes, n, texels, bytes) == LMB_OK;
     for (size_t first = 0; ok && first < count; first += LMB_TILE_PIXELS) {
-        for (size_t i = 0; i < 3 * LMB_TILE_PIXELS; ++i) {
-            s->tile.normal[i / LMB_TILE_PIXELS][i % LMB_TILE_PIXELS] =
-                (float)t->table.direction[i / LMB_TILE_PIXELS * count + first + i % LMB_TILE_PIXELS] *
-                    (2.0f / 65535.0f) -
-                1.0f;
-        }
-        memset(&s->light, 0, sizeof s->light);
-        ok = lmb_probe_light_tile(&s->light, o->kernels, &s->rays, &s->tile, ~(uint64_t)0, &cube) == LMB_OK;
-        for (size_t c = 0; c < 3; ++c) {
-            memcpy(t->map + c * count + first, s->light.rgb[c], sizeof s->light.rgb[c]);
-        }
+        ok = see_pixels(t, s, o->kernels, &cube, first);
     }
     free(planes);
     free(texels);
