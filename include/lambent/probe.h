@@ -272,8 +272,9 @@ lmb_status lmb_probe_map_cube(float *cube, int32_t n, const float *map, const lm
  *   roughness  0 .. 1; alpha = roughness^2; under LMB_MIN_ALPHA: a mirror.
  * The lobe is that of lmb_glossy seen along the normal. It is sampled down to its horizon with 64 rays, or from
  * roughness 0.2 on with the world's peaks and 40 rays. Texels of a mirror are means of 36 rays: against path-traced
- * truth of a world with small lights 1 % rmse away from silhouettes. Returns LMB_OK or LMB_ERR_ARG. Cost: about 25
- * cycles a ray with AVX2.
+ * truth of a world with small lights 1 % rmse away from silhouettes. If n is the side of the world's faces, lights of
+ * one texel keep their power within 0.5 %; with finer texels they gain up to 30 %. Returns LMB_OK or LMB_ERR_ARG. Cost:
+ * about 25 cycles a ray with AVX2.
  * lmb_probe_glossy_side: the n that a roughness needs: 64 from 0.1 on, 16 from 0.3, 8 from 0.6; 0 under 0.1, for which
  * pixels sample the world itself. */
 int32_t lmb_probe_glossy_side(float roughness);
