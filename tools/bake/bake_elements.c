@@ -12,8 +12,11 @@ enum { MESH = 500, CROWD = 8, WASTE = 4, CELL = 3 /* elements of a cell, at most
 enum { Z_BITS = 9 }; /* steps along an axis of the order, as a power of two */
 #define CONTACT 0.2f /* of an element's size: smallest size of elements that other geometry touches */
 #define CLOSER  0.5f /* of that, if enough elements are left */
+#define STARVED 4.0f  /* times the smallest size of elements: above it, those at contacts are no longer smaller */
+#define SMALLER 0.75f /* but only if all others become this much smaller */
 #define STANDING 0.4f /* of an element's size: size of elements with a wall at a corner */
 #define SLIVER  0.25f /* of that size: narrower triangles share elements, because they would use up all of them */
+#define LONG    4.0f  /* largest ratio between an element's longest edge and the edge of a compact one of that area */
 #define BESIDE  0.1f  /* of the smallest edge: distance of the points tested on both sides of a wall */
 #define CORNERS (7u << 3) /* bits of a piece that record walls: three for edges, then three for corners */
 
@@ -289,6 +292,13 @@ static int halve_by(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal, size_t 
     return 1;
 }
 
+/* Returns the size of a piece, m: the longest edge of half a square of that area. Thin pieces count by their area, or
+ * the facets of a pillar would take all elements. */
+static float size_of(const lmb_vec3 corner[3], float longest)
+{
+    return minf(longest, maxf(2.0f * sqrtf(triangle_area(corner)), longest * (1.0f / LONG)));
+}
+
 /* Cuts a triangle, then halves it at the longest edge until it is small enough; adds nodes to the section of pieces.
  * Light changes fast next to walls, so pieces are smaller there, but larger than the blocks of a shadow map. */
 static int halve(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal, size_t node, int depth, uint32_t walls)
@@ -296,7 +306,7 @@ static int halve(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal, size_t nod
     bake_words *w = &m->b->section[LMB_TRANSFER_PIECES];
     bake_cut cut = m->b->cut[m->cut];
     int from;
-    const float longest = triangle_longest(&from, corner);
+    const float longest = size_of(corner, triangle_longest(&from, corner));
     if (m->is_full) {
         return 1;
     }
@@ -555,11 +565,14 @@ static int set_reached(maker *m, uint32_t all)
     return m->is_reached != NULL || report_fail(m->r, "not enough memory for %u triangles", (unsigned)all);
 }
 
+/* The size of elements of equal area, halved since contacts and rounding need some, m. */
+static float smallest_side(const bake *b) { return 0.5f * sqrtf(b->area / (float)b->set.elements); }
+
 /* Makes elements as small as their number allows. */
 static int make_small(maker *m)
 {
     const lmb_scene *s = m->b->scene;
-    const float smallest = 0.5f * sqrtf(m->b->area / (float)m->b->set.elements);
+    const float smallest = smallest_side(m->b);
     const float longest = largest3(sub3(s->bounds_max, s->bounds_min));
     int ok = 1;
     m->side = smallest;
@@ -571,6 +584,25 @@ static int make_small(maker *m)
         }
     }
     return ok;
+}
+
+/* Makes elements; those at contacts are smaller, unless that makes all others far too large. */
+static int make_closer(maker *m)
+{
+    m->contact = CONTACT;
+    if (!make_small(m)) {
+        return 0;
+    }
+    const float side = m->side;
+    if (side <= STARVED * smallest_side(m->b)) {
+        return 1;
+    }
+    m->contact = 1.0f;
+    if (!make_small(m) || m->side <= SMALLER * side) {
+        return m->r->text[0] == '\0';
+    }
+    m->contact = CONTACT;
+    return make_small(m);
 }
 
 int bake_elements(bake *b, report *r)
@@ -586,15 +618,14 @@ int bake_elements(bake *b, report *r)
     int ok = (m.slot != NULL && b->element != NULL) ||
              report_fail(r, "not enough memory for %u elements", (unsigned)b->set.elements);
     ok = ok && bake_sight_begin(&m.sight, r) && set_reached(&m, lmb_scene_triangles(b->scene));
-    m.contact = CONTACT;
-    ok = ok && make_small(&m);
+    ok = ok && make_closer(&m);
     if (ok && m.had_slivers && b->element_count < b->set.elements / WASTE) { /* or a room would be a few elements */
         m.is_crowded = 1;
         ok = make_small(&m);
     }
-    m.contact = CLOSER * CONTACT; /* light leaks through a thin wall at elements that cross it */
+    m.contact *= CLOSER; /* light leaks through a thin wall at elements that cross it */
     if (ok && (ok = make(&m)) != 0 && m.is_full) {
-        m.contact = CONTACT;
+        m.contact *= 1.0f / CLOSER;
         ok = make(&m);
     }
     free(m.slot);

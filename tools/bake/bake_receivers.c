@@ -14,6 +14,7 @@ enum { BATCH = 64, DEPTH = 24, SEARCH = 6, ROUND = 64, PLACES = 4 };
 #define DIM    0.25f /* of the mean light: in darker places errors count less */
 #define BURIED 2.0f /* times the light of the brightest corner: if an inner point has more, the corners are buried */
 #define WAIT   0.1f  /* of the worst error: smaller errors wait, because receivers may run out */
+#define PER_CORNER 1.5f /* receivers to divide triangles with, for each receiver at a corner of the scene */
 #define LOOK   0.45 /* cost of a sample point, in rows of a receiver */
 #define ACROSS 1.1 /* cost of a receiver's three rows */
 #define STANDS 0.1f /* surplus of a triangle that geometry touches; differences between corners are no estimate there */
@@ -202,8 +203,9 @@ static int mend_corner(divider *d, piece *p, int k, lmb_vec3 anchor, uint32_t pa
     return p->receiver[k] != LMB_TRANSFER_NONE;
 }
 
-/* The anchor is the leaf's middle. If geometry covers the middle, it is the corner with most light. If a point
- * within the leaf gets much more light, all corners are buried and the anchor is that point. */
+/* The anchor is the leaf's middle. If geometry covers the middle, which is then dark, it is the corner with most light.
+ * If a point within the leaf gets much more light, all corners are buried and the anchor is that point. A leaf may
+ * reach from one bay across a rib into the next: light at the middle counts more than light at a corner. */
 static int mend_corners(divider *d, piece *p, const float light[PLACES])
 {
     lmb_vec3 place[PLACES];
@@ -220,13 +222,11 @@ static int mend_corners(divider *d, piece *p, const float light[PLACES])
     }
     const uint32_t parent = p->receiver[best];
     const lmb_vec3 corner = d->b->receiver[parent].at;
-    const int is_buried = light[open] > BURIED * highest;
-    lmb_vec3 anchor = place[open];
-    if (!is_buried) {
-        anchor = bake_sees(&d->sight, d->b, place[0], corner, p->normal) ? place[0] : corner;
-    }
+    const int is_buried = light[open] > BURIED * highest, is_lit = light[0] * BURIED > highest;
+    const int sees = !is_buried && bake_sees(&d->sight, d->b, place[0], corner, p->normal);
+    const lmb_vec3 anchor = is_buried ? place[open] : sees || is_lit ? place[0] : corner;
     for (int k = 0; k < 3; ++k) {
-        if ((is_buried || k != best) && !mend_corner(d, p, k, anchor, parent)) {
+        if ((is_buried || k != best || (!sees && is_lit)) && !mend_corner(d, p, k, anchor, parent)) {
             return 0;
         }
     }
@@ -824,7 +824,7 @@ static int add_roots(divider *d)
         d->queue[i].piece = (size_t)-1;
     }
     if (b->set.receivers == 0) {
-        d->b->set.receivers = b->receiver_count + b->set.dividing;
+        d->b->set.receivers = b->receiver_count + b->set.dividing + (uint32_t)(PER_CORNER * (float)b->receiver_count);
     }
     if (b->receiver_count > b->set.receivers) {
         return report_fail(d->r, "%u receivers are wanted before any division, and --receivers allows %u; raise it, or "

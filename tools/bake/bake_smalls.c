@@ -1,6 +1,7 @@
 /* bake_smalls.c: the places of small triangles that light reaches, because meshes extend into walls and each other. */
 #include "bake.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -8,7 +9,7 @@
 #include "../common/fvec.h"
 #include "bake_triangle.h"
 
-enum { QUARTERS = 4, TOGETHER = LMB_TILE_PIXELS / QUARTERS, WITNESSES = 24 };
+enum { QUARTERS = 4, TOGETHER = LMB_TILE_PIXELS / QUARTERS, WITNESSES = 24, BRIGHTEST = 40 };
 #define OVER  0.05f /* of the smallest edge: height of the sample points */
 #define FAINT 0.01  /* of the mean light: darker elements are not used as witnesses */
 
@@ -37,19 +38,24 @@ void bake_quarters(lmb_vec3 out[4], const lmb_vec3 corner[3])
     }
 }
 
-/* Finds the nearest lit elements that might be visible from around an element. */
-static void find_witnesses(bake_nearest *out, const smalls *w, uint32_t element)
+/* Finds lit elements that might be visible from around an element: the nearest, or those that would send it the most
+ * light. Between books, all near ones may lie on the other side of a board. */
+static void find_witnesses(bake_nearest *out, const smalls *w, uint32_t element, int by_light)
 {
     const bake_element *e = &w->b->element[element];
     out->count = 0;
-    out->limit = WITNESSES;
+    out->limit = by_light ? BRIGHTEST : WITNESSES;
     for (uint32_t i = 0; i < w->b->element_count; ++i) {
         const bake_element *o = &w->b->element[i];
         const lmb_vec3 at = bake_place(o), d = sub3(at, e->middle);
-        const float d2 = dot3(d, d);
-        if (i != element && o->light > w->faint && !o->is_stood_on && dot3(d, o->normal) <= 0.0f &&
-            dot3(d, e->normal) >= 0.0f && bake_is_near(out, d2)) {
-            bake_nearest_put(out, at, d2);
+        const float d2 = dot3(d, d), from = -dot3(d, o->normal), to = dot3(d, e->normal);
+        if (i == element || !(o->light > w->faint) || o->is_stood_on || from < 0.0f || to < 0.0f) {
+            continue;
+        }
+        const float sent = o->light * o->area * from * to;
+        const float far = !by_light ? d2 : sent > 0.0f ? d2 * d2 / sent : HUGE_VALF;
+        if (bake_is_near(out, far)) {
+            bake_nearest_put(out, at, far);
         }
     }
 }
@@ -114,6 +120,22 @@ static void open_part(bake_part *p, uint32_t own)
     p->middle = count > 0 ? mul3(sum, 1.0f / (float)count) : p->middle;
 }
 
+/* Adds the places of `all` that see one of the witnesses. */
+static uint64_t open_places(const bake *b, lmb_traversal *traversal, const lmb_tile *tile, const bake_nearest *witness,
+                            uint64_t open, uint64_t all)
+{
+    const float noise = lmb_tile_noise(tile, all);
+    for (int k = 0; k < witness->count && open != all; ++k) {
+        const lmb_vec3 at = witness->at[k];
+        const uint64_t ask = all & ~open & before(tile, at);
+        if (ask != 0) {
+            open |= ask & ~lmb_occluded_tile(b->kernels, traversal, &b->bvh, tile, ask, at,
+                                             noise + lmb_place_noise(at, 0.0f));
+        }
+    }
+    return open;
+}
+
 /* A place is open if it sees a lit element. */
 static void look(void *user, int index, int worker)
 {
@@ -124,19 +146,14 @@ static void look(void *user, int index, int worker)
     bake_nearest witness;
     uint64_t open = 0;
     bake_bound(w->traversal[worker]);
-    find_witnesses(&witness, w, s->element);
     tile->hits = 0;
     for (uint32_t i = 0; i < count; ++i) {
         put_places(tile, w->b, &s[i]);
     }
     const uint64_t all = ~(uint64_t)0 >> (LMB_TILE_PIXELS - QUARTERS * (int)count);
-    const float noise = lmb_tile_noise(tile, all);
-    for (int k = 0; k < witness.count && open != all; ++k) {
-        const uint64_t ask = all & ~open & before(tile, witness.at[k]);
-        if (ask != 0) {
-            open |= ask & ~lmb_occluded_tile(w->b->kernels, w->traversal[worker], &w->b->bvh, tile, ask, witness.at[k],
-                                             noise + lmb_place_noise(witness.at[k], 0.0f));
-        }
+    for (int by_light = 0; by_light < 2 && open != all; ++by_light) {
+        find_witnesses(&witness, w, s->element, by_light);
+        open = open_places(w->b, w->traversal[worker], tile, &witness, open, all);
     }
     for (uint32_t i = 0; i < count; ++i) {
         const uint32_t own = (uint32_t)(open >> QUARTERS * i) & ((1u << QUARTERS) - 1u);
