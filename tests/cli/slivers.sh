@@ -76,4 +76,24 @@ status 0 render buried.obj $above --quality draft -o buried-draft.pfm
 status 0 render buried.obj $above --transfer buried.lmt -o buried.pfm
 status 0 compare buried.pfm buried-draft.pfm --max lo=0.7,hi=1.3
 
+# Books on boards: the nearest lit surfaces are hidden from some of them by a board, which are lit all the same.
+awk 'function block(x0, y0, z0, x1, y1, z1,  i) {
+         for (i = 0; i < 8; ++i) print "v", i % 2 ? x1 : x0, int(i / 2) % 2 ? y1 : y0, (i > 3 ? z1 : z0)
+         print "f -8 -6 -5 -7\nf -4 -3 -1 -2\nf -8 -7 -3 -4\nf -6 -2 -1 -5\nf -8 -4 -2 -6\nf -7 -5 -1 -3" }
+     BEGIN { block(0, 0, 0, 3, 2.6, 3)
+             for (k = 0; k < 4; ++k) {
+                 y = 0.1 + 0.35 * k
+                 block(0.1, y - 0.03, 0.02, 2.9, y, 0.32)
+                 for (i = 0; i < 40 && k < 3; ++i) {
+                     x = 0.15 + 0.068 * i
+                     block(x, y, 0.03, x + 0.03 + 0.03 * (i * 5 % 3) / 2, y + 0.2 + 0.07 * (i * 7 % 5) / 4, \
+                           0.2 + 0.08 * (i * 11 % 7) / 6)
+                 }
+             } }' >books.obj
+above="--eye 1.5,0.8,1.5 --target 1.5,0.6,0 --fov 70 --size 48x48 --light point:0.4,2.4,1.8:0,-1,0:5,4,3 --show indirect"
+status 0 bake books.obj -o books.lmt --elements 256 --receivers 4000 --division 1 --eye 1.5,1.5,2.5
+status 0 render books.obj $above --transfer books.lmt -o books.pfm
+black=$(tail -c 27648 books.pfm | od -An -v -tf4 -w12 | awk '$1 + $2 + $3 == 0 { ++n } END { print n + 0 }')
+check "books are lit, except for $black of 2304 pixels" test "$black" -le 3
+
 finish
