@@ -12,11 +12,12 @@ enum { MESH = 500, CROWD = 8, WASTE = 4, CELL = 3 /* elements of a cell, at most
 enum { Z_BITS = 9 }; /* steps along an axis of the order, as a power of two */
 #define CONTACT 0.2f /* of an element's size: smallest size of elements that other geometry touches */
 #define CLOSER  0.5f /* of that, if enough elements are left */
-#define STARVED 4.0f  /* times the smallest size of elements: above it, those at contacts are no longer smaller */
+#define LARGE   9.0f  /* times the smallest size of elements: above it, elements may be long and thin */
+#define STARVED 4.0f  /* the same: above it, thin elements at contacts are not smaller */
 #define SMALLER 0.75f /* but only if all others become this much smaller */
 #define STANDING 0.4f /* of an element's size: size of elements with a wall at a corner */
 #define SLIVER  0.25f /* of that size: narrower triangles share elements, because they would use up all of them */
-#define LONG    4.0f  /* largest ratio between an element's longest edge and the edge of a compact one of that area */
+#define LONG    4.0f  /* largest ratio between a thin element's longest edge and that of a compact one of that area */
 #define BESIDE  0.1f  /* of the smallest edge: distance of the points tested on both sides of a wall */
 #define CORNERS (7u << 3) /* bits of a piece that record walls: three for edges, then three for corners */
 
@@ -100,6 +101,7 @@ typedef struct maker {
     bake *b;
     bake_sight sight;
     float side, contact;
+    int has_thin; /* elements may be long and thin */
     uint32_t *slot; /* hash table of small triangles' cells: element + 1 */
     uint32_t mask;
     uint8_t *is_reached; /* per side of a triangle */
@@ -292,11 +294,11 @@ static int halve_by(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal, size_t 
     return 1;
 }
 
-/* Returns the size of a piece, m: the longest edge of half a square of that area. Thin pieces count by their area, or
- * the facets of a pillar would take all elements. */
-static float size_of(const lmb_vec3 corner[3], float longest)
+/* Returns the size of a piece, m: the longest edge; with thin pieces, that of half a square of the same area, or the
+ * facets of pillars would take all elements. */
+static float size_of(const maker *m, const lmb_vec3 corner[3], float longest)
 {
-    return minf(longest, maxf(2.0f * sqrtf(triangle_area(corner)), longest * (1.0f / LONG)));
+    return m->has_thin ? minf(longest, maxf(2.0f * sqrtf(triangle_area(corner)), longest * (1.0f / LONG))) : longest;
 }
 
 /* Cuts a triangle, then halves it at the longest edge until it is small enough; adds nodes to the section of pieces.
@@ -306,7 +308,7 @@ static int halve(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal, size_t nod
     bake_words *w = &m->b->section[LMB_TRANSFER_PIECES];
     bake_cut cut = m->b->cut[m->cut];
     int from;
-    const float longest = size_of(corner, triangle_longest(&from, corner));
+    const float longest = size_of(m, corner, triangle_longest(&from, corner));
     if (m->is_full) {
         return 1;
     }
@@ -586,23 +588,28 @@ static int make_small(maker *m)
     return ok;
 }
 
-/* Makes elements; those at contacts are smaller, unless that makes all others far too large. */
+/* Makes elements. If they become far too large, some are thin; if that is not enough, those at contacts are no longer
+ * smaller. */
 static int make_closer(maker *m)
 {
     m->contact = CONTACT;
-    if (!make_small(m)) {
-        return 0;
+    int ok = make_small(m);
+    if (!ok || m->side <= LARGE * smallest_side(m->b)) {
+        return ok;
     }
+    m->has_thin = 1;
+    ok = make_small(m);
     const float side = m->side;
-    if (side <= STARVED * smallest_side(m->b)) {
-        return 1;
+    if (!ok || side <= STARVED * smallest_side(m->b)) {
+        return ok;
     }
     m->contact = 1.0f;
-    if (!make_small(m) || m->side <= SMALLER * side) {
-        return m->r->text[0] == '\0';
+    ok = make_small(m);
+    if (ok && m->side > SMALLER * side) {
+        m->contact = CONTACT;
+        ok = make_small(m);
     }
-    m->contact = CONTACT;
-    return make_small(m);
+    return ok;
 }
 
 int bake_elements(bake *b, report *r)

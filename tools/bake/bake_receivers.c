@@ -203,9 +203,8 @@ static int mend_corner(divider *d, piece *p, int k, lmb_vec3 anchor, uint32_t pa
     return p->receiver[k] != LMB_TRANSFER_NONE;
 }
 
-/* The anchor is the leaf's middle. If geometry covers the middle, which is then dark, it is the corner with most light.
- * If a point within the leaf gets much more light, all corners are buried and the anchor is that point. A leaf may
- * reach from one bay across a rib into the next: light at the middle counts more than light at a corner. */
+/* The anchor is the leaf's middle. If geometry covers the middle, it is the corner with most light. If a point
+ * within the leaf gets much more light, all corners are buried and the anchor is that point. */
 static int mend_corners(divider *d, piece *p, const float light[PLACES])
 {
     lmb_vec3 place[PLACES];
@@ -222,11 +221,13 @@ static int mend_corners(divider *d, piece *p, const float light[PLACES])
     }
     const uint32_t parent = p->receiver[best];
     const lmb_vec3 corner = d->b->receiver[parent].at;
-    const int is_buried = light[open] > BURIED * highest, is_lit = light[0] * BURIED > highest;
-    const int sees = !is_buried && bake_sees(&d->sight, d->b, place[0], corner, p->normal);
-    const lmb_vec3 anchor = is_buried ? place[open] : sees || is_lit ? place[0] : corner;
+    const int is_buried = light[open] > BURIED * highest;
+    lmb_vec3 anchor = place[open];
+    if (!is_buried) {
+        anchor = bake_sees(&d->sight, d->b, place[0], corner, p->normal) ? place[0] : corner;
+    }
     for (int k = 0; k < 3; ++k) {
-        if ((is_buried || k != best || (!sees && is_lit)) && !mend_corner(d, p, k, anchor, parent)) {
+        if ((is_buried || k != best) && !mend_corner(d, p, k, anchor, parent)) {
             return 0;
         }
     }
