@@ -77,11 +77,11 @@ $(PAGE)/%.wasm.lzma: $(PAGE_WORK)/%.wasm
 	@mkdir -p $(@D)
 	@xz --format=lzma --lzma1=preset=9e,$(if $(filter lambent,$*),pb=0$(comma)lc=4,pb=1$(comma)lc=3$(comma)nice=128) -c $< > $@
 
-# Removes comments and indentation.
+# Removes comments and indentation; in files that are not compressed also the blanks of ` = `, which no text there has.
 PAGE_BARE := sed -e 's/^ *//' -e '/^\/\/ /d' -e 's|\([;{},)]\)  *// .*|\1|' -e '/^$$/d'
 $(PAGE)/%: platform/web/page/%
 	@mkdir -p $(@D)
-	@$(PAGE_BARE) $< > $@
+	@$(PAGE_BARE) -e 's/ = /=/g' $< > $@
 $(PAGE)/page.js.lzma $(PAGE)/body.html.lzma: $(PAGE)/%.lzma: platform/web/page/%
 	@mkdir -p $(@D)
 	@$(PAGE_BARE) $< | xz --format=lzma --lzma1=preset=9e,pb=0,lc=2 > $@

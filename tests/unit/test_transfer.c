@@ -835,13 +835,13 @@ static void bytes_of_demo(void)
     bake_settings set = few(0.00014f, 0.008f, 300);
     set.cluster_m = 0.3f;
     file_bytes baked = bake_whole(demo_scene(), &set, NULL);
-    is_pinned("the demo", &baked, 0x89a2ecb2f63b8cd9u);
+    is_pinned("the demo", &baked, 0xa55ed3df044a4c90u);
     file_free(&baked);
 }
 
 /* Bounds the work of a bake, in visibility tests. Light by direction needs the same tests as light along the normal, so
- * normal maps take no second pass (here 12 % more tests). Of the 55 million, 62 would be needed if all quarters of near
- * elements were split. */
+ * normal maps take no second pass (here 12 % more tests). Of the 60 million, 3.5 find small sides that only the elements
+ * with most light reach. Seven more would be needed if all quarters of near elements were split. */
 static void tests_are_few(void)
 {
     static lmb_material bumpy[64];
@@ -860,7 +860,7 @@ static void tests_are_few(void)
     const double by_direction = (double)tests_of_bake;
     file_free(&baked);
     CHECK_MSG(by_direction <= 1.05 * plain, "%.0f tests with normal maps, %.0f without", by_direction, plain);
-    CHECK_MSG(plain <= 57e6, "%.0f tests", plain);
+    CHECK_MSG(plain <= 61e6, "%.0f tests", plain);
 }
 
 static void is_same_by(const lmb_transfer *t, const lmb_scene *scene)

@@ -118,6 +118,7 @@ typedef struct bake {
     uint32_t *coarse; /* counts calls with coarser visibility, because a job ran out of tests; NULL: not counted */
     uint64_t *tests; /* counts visibility tests of rows: nodes, leaves, triangles, pixels against holes; or NULL */
     int by_middles; /* rows use only the middles of elements */
+    int has_thin;   /* elements may be long and thin, because others would be far too large */
     int is_coded;   /* the areas of targets were added to their parents */
 
     bake_element *element; /* set.elements; area 0 from element_count on */

@@ -101,7 +101,6 @@ typedef struct maker {
     bake *b;
     bake_sight sight;
     float side, contact;
-    int has_thin; /* elements may be long and thin */
     uint32_t *slot; /* hash table of small triangles' cells: element + 1 */
     uint32_t mask;
     uint8_t *is_reached; /* per side of a triangle */
@@ -298,7 +297,8 @@ static int halve_by(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal, size_t 
  * facets of pillars would take all elements. */
 static float size_of(const maker *m, const lmb_vec3 corner[3], float longest)
 {
-    return m->has_thin ? minf(longest, maxf(2.0f * sqrtf(triangle_area(corner)), longest * (1.0f / LONG))) : longest;
+    const float compact = 2.0f * sqrtf(triangle_area(corner));
+    return m->b->has_thin ? minf(longest, maxf(compact, longest * (1.0f / LONG))) : longest;
 }
 
 /* Cuts a triangle, then halves it at the longest edge until it is small enough; adds nodes to the section of pieces.
@@ -597,7 +597,7 @@ static int make_closer(maker *m)
     if (!ok || m->side <= LARGE * smallest_side(m->b)) {
         return ok;
     }
-    m->has_thin = 1;
+    m->b->has_thin = 1;
     ok = make_small(m);
     const float side = m->side;
     if (!ok || side <= STARVED * smallest_side(m->b)) {

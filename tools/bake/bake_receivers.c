@@ -14,7 +14,7 @@ enum { BATCH = 64, DEPTH = 24, SEARCH = 6, ROUND = 64, PLACES = 4 };
 #define DIM    0.25f /* of the mean light: in darker places errors count less */
 #define BURIED 2.0f /* times the light of the brightest corner: if an inner point has more, the corners are buried */
 #define WAIT   0.1f  /* of the worst error: smaller errors wait, because receivers may run out */
-#define PER_CORNER 1.5f /* receivers to divide triangles with, for each receiver at a corner of the scene */
+#define PER_CORNER 1.5f /* further receivers of a scene with thin elements, for each receiver at a corner */
 #define LOOK   0.45 /* cost of a sample point, in rows of a receiver */
 #define ACROSS 1.1 /* cost of a receiver's three rows */
 #define STANDS 0.1f /* surplus of a triangle that geometry touches; differences between corners are no estimate there */
@@ -825,7 +825,8 @@ static int add_roots(divider *d)
         d->queue[i].piece = (size_t)-1;
     }
     if (b->set.receivers == 0) {
-        d->b->set.receivers = b->receiver_count + b->set.dividing + (uint32_t)(PER_CORNER * (float)b->receiver_count);
+        d->b->set.receivers = b->receiver_count + b->set.dividing +
+                              (b->has_thin ? (uint32_t)(PER_CORNER * (float)b->receiver_count) : 0);
     }
     if (b->receiver_count > b->set.receivers) {
         return report_fail(d->r, "%u receivers are wanted before any division, and --receivers allows %u; raise it, or "
