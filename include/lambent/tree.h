@@ -121,8 +121,8 @@ typedef struct lmb_cut_params {
                                      side. NULL: such a pixel gets no light from that wall */
     int32_t tests;                /* visibility tests before the light becomes coarser, LMB_TRAVERSAL_FIRST at most: see
                                      lmb_traversal. A share of them also gets that share of nodes. 0: the most.
-                                     Whatever the calls add, a tile ends at 4.4 million, times .015 / `visibility` if
-                                     that is under .015, beyond five times as many and `saved` */
+                                     A tile adds M tests to `saved`, and ends at most at 5 M + `saved`, whatever its
+                                     calls add. M is 4.4 million, times .015 / `visibility` for a smaller one */
     int64_t *saved;               /* tests that earlier tiles of the row saved, or minus those that they borrowed; 0 at
                                      the row's start; updated. NULL: the tile shares tests with none */
 } lmb_cut_params;

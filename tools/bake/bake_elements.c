@@ -593,6 +593,7 @@ static int make_small(maker *m)
 static int make_closer(maker *m)
 {
     m->contact = CONTACT;
+    m->b->has_thin = 0; /* a second pass decides again */
     int ok = make_small(m);
     if (!ok || m->side <= LARGE * smallest_side(m->b)) {
         return ok;

@@ -43,7 +43,7 @@ static const char *const orders[] = {"little", "big", NULL};
 static const char *const forms[] = {"transfer", "vertex-colours", "lightmap", "probes", NULL};
 static const char *const endings[] = {".lmt", ".glb", ".glb", ".json"};
 
-/* Settings of --quality: elements, and receivers in addition to 2.5 for each corner of a triangle. */
+/* Settings of --quality: elements, and receivers in addition to those at triangle corners. */
 enum { QUALITY_DRAFT, QUALITY_DEFAULT, QUALITY_BEST };
 static const char *const qualities[] = {"draft", "default", "best", NULL};
 static const struct {
@@ -65,8 +65,9 @@ static const option_row rows[] = {
      .help = "scene to load from a file with several, by name or number"},
     OPTION_VERTEX_COLOURS_ROW(options, choice.vertex_colours),
     {.name = "--quality", .kind = OPTION_WORD, AT(quality), .words = qualities,
-     .help = "draft: 1024 elements, and 1500 receivers in addition to 2.5 for each corner of the scene; default: 4096 "
-             "and 7000; best: 16384 and 12000, which takes 1.5 to nine times as long as the default (default default)"},
+     .help = "draft: 1024 elements, and 1500 receivers in addition to those at triangle corners; default: 4096 and "
+             "7000; best: 16384 and 12000, which takes 1.5 to nine times as long as the default. Scenes of many "
+             "thin parts get more receivers (default default)"},
     {.name = "--error", .value = "SHARE", .kind = OPTION_ABOVE, AT(error), .low = 0.0, .high = 1.0,
      .help = "accuracy of the links, which carry light from elements to receivers: the error that one more link "
              "must save, as a share of all light around a receiver that represents a 10,000th of the scene's area "
